@@ -1,0 +1,232 @@
+"""The commands. Results go to standard output, everything else to standard error."""
+
+import contextlib
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import tyro
+
+import studio
+from studio.engine.activity import next_recording_path
+from studio.engine.errors import StudioError
+from studio.engine.experiment import Setup, run_experiment
+from studio.engine.inspection import inspect_file
+from studio.engine.mcap_file import write_recording
+from studio.engine.recording import Recording
+from studio.engine.report import as_json, as_text
+from studio.engine.resources import recordings_folder
+from studio.engine.sources import SkeletonRecording
+from studio.engine.sources.demonstrator import demonstrate
+from studio.engine.teaching import LearnerSettings
+
+Files = Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="FILE...")]
+Learner = Literal["rbf", "newrb"]
+Mapping = Literal["exact", "paper"]
+Interpolation = Literal["even", "random"]
+
+
+@dataclass(frozen=True)
+class Serve:
+    """Open the studio in the browser (what plain ``studio`` does)."""
+
+    host: str = "127.0.0.1"
+    """Address to listen on. Anything but loopback lets others in, without a password."""
+    port: int = 8080
+    """Port to listen on; the next free one if it is taken."""
+    recordings: Path | None = None
+    """Folder for new recordings. In a clone its recordings folder, else the user's data folder."""
+    browser: bool = True
+    """Open a browser, if there is one."""
+
+    def run(self) -> int:
+        """Serve until interrupted."""
+        from studio.live import serve_studio  # noqa: PLC0415 - headless commands need no viser
+
+        folder = self.recordings or recordings_folder()
+        serve_studio(self.host, self.port, folder, self.browser)
+
+
+@dataclass(frozen=True)
+class Demo:
+    """Do the whole paper: the demonstrator teaches, the network learns, Baxter repeats."""
+
+    headless: bool = False
+    """Without a browser, as fast as it goes."""
+    demonstrations: int = 4
+    """How many takes the demonstrator teaches."""
+    neurons: int = 50
+    """Neurons of the network."""
+    learner: Learner = "rbf"
+    """rbf: Eq. 13 and a truncated SVD for Eq. 14. newrb: MATLAB's greedy network, spread 1."""
+    mapping: Mapping = "exact"
+    """exact: all four joints. paper: s0, s1, e1 with e0 = 0, so 142 x 3; the forearm's direction is
+    then off by 48 degrees in the median of real recordings."""
+    seed: int = 0
+    """Seed of the demonstrator; the same seed gives the same numbers."""
+    interpolation: Interpolation = "even"
+    """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
+    save: Path | None = None
+    """Folder to keep the demonstrations in, as MCAP recordings."""
+    port: int = 8080
+    """Port of the browser's page."""
+    json: bool = False
+    """Print one JSON object."""
+
+    def run(self) -> int:
+        """Run the demonstration; with a browser, show it as it happens first."""
+        if self.demonstrations < 1:
+            raise StudioError(f"--demonstrations: one or more, not {self.demonstrations}")
+        setup = Setup(
+            "left", self.mapping, "sequence", self._learner(), self.interpolation, self.seed
+        )
+        if self.headless:
+            return self._run_experiment(setup)
+        from studio.live import serve_until_interrupted, shown_demo  # noqa: PLC0415 - as above
+
+        with shown_demo(self.port, setup, self.demonstrations):
+            self._run_experiment(setup)
+            serve_until_interrupted()
+
+    def _run_experiment(self, setup: Setup) -> int:
+        takes = [demonstrate(self.seed, take) for take in range(1, self.demonstrations + 1)]
+        return _experiment(takes, setup, self.json, self.save)
+
+    def _learner(self) -> LearnerSettings:
+        return LearnerSettings(self.learner, self.neurons)
+
+
+@dataclass(frozen=True)
+class Teach:
+    """Teach Baxter from skeleton files or from recordings (MCAP), and let it repeat."""
+
+    files: Files
+    """Skeleton files in any supported format, or MCAP recordings of the studio."""
+    arm: Literal["left", "right"] = "left"
+    """The arm that is followed. The gate is always the left hand's."""
+    mapping: Mapping = "exact"
+    """exact: all four joints. paper: s0, s1, e1 with e0 = 0; the forearm's direction is then off by
+    48 degrees in the median of real recordings."""
+    gate: Literal["sequence", "open"] = "sequence"
+    """sequence: the left hand signs Lasso, Open, Closed. open: follow whoever is in sight."""
+    neurons: int = 50
+    """Neurons of the network."""
+    learner: Learner = "rbf"
+    """rbf: Eq. 13 and a truncated SVD for Eq. 14. newrb: MATLAB's greedy network, spread 1."""
+    interpolation: Interpolation = "even"
+    """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
+    save: Path | None = None
+    """Folder to keep what was followed in, as MCAP recordings."""
+    json: bool = False
+    """Print one JSON object."""
+
+    def run(self) -> int:
+        """Teach, learn, reproduce."""
+        learner = LearnerSettings(self.learner, self.neurons)
+        setup = Setup(self.arm, self.mapping, self.gate, learner, self.interpolation)
+        return _experiment(self.files, setup, self.json, self.save)
+
+
+@dataclass(frozen=True)
+class Inspect:
+    """Say what is in a skeleton file, and what in it would hold the gate or the arm."""
+
+    file: Annotated[Path, tyro.conf.Positional]
+    """A skeleton file in any supported format."""
+    json: bool = False
+    """Print one JSON object."""
+
+    def run(self) -> int:
+        """Inspect the file."""
+        inspection = inspect_file(self.file)
+        print(_json(inspection.to_dict()) if self.json else inspection)
+        return 0
+
+
+Command = (
+    Annotated[Serve, tyro.conf.subcommand("serve")]
+    | Annotated[Demo, tyro.conf.subcommand("demo")]
+    | Annotated[Teach, tyro.conf.subcommand("teach")]
+    | Annotated[Inspect, tyro.conf.subcommand("inspect")]
+)
+COMMANDS = ("serve", "demo", "teach", "inspect")
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the ``studio`` command and exit with its status: 1 where nothing came of it."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    if given == ["--version"]:
+        print(f"studio {studio.__version__}")
+        return
+    if not given or (given[0] not in COMMANDS and given[0] not in ("-h", "--help")):
+        given.insert(0, "serve")
+    command: Serve | Demo | Teach | Inspect = tyro.cli(
+        Command,  # type: ignore[arg-type]
+        prog="studio",
+        description=studio.__doc__,
+        args=given,
+        config=(tyro.conf.FlagCreatePairsOff,),
+    )
+    try:
+        status = command.run()
+    except StudioError as error:
+        print(f"studio: {error}", file=sys.stderr)
+        if getattr(command, "json", False):
+            print(_json({"files": [], "error": str(error)}))
+        status = 1
+    except KeyboardInterrupt:
+        status = 130
+    sys.exit(status)
+
+
+def _experiment(
+    inputs: Sequence[Path | SkeletonRecording], setup: Setup, as_object: bool, save: Path | None
+) -> int:
+    with _only_ours_on_stdout():
+        experiment = run_experiment(inputs, setup, _keeper(save), _log)
+    if experiment.error:
+        print(f"studio: {experiment.error}", file=sys.stderr)
+    for file in experiment.files:
+        if file.warning:
+            print(f"studio: {file.warning}", file=sys.stderr)
+    print(_json(as_json(experiment)) if as_object else as_text(experiment))
+    return 1 if experiment.error else 0
+
+
+def _keeper(folder: Path | None) -> Callable[[Recording], None] | None:
+    """Return what writes every recording into ``folder``, under the next free name."""
+    if folder is None:
+        return None
+
+    def keep(recording: Recording) -> None:
+        path = next_recording_path(folder)
+        write_recording(path, recording)
+        _log(f"saved {path}")
+
+    return keep
+
+
+@contextlib.contextmanager
+def _only_ours_on_stdout() -> Iterator[None]:
+    """Send what libraries print to standard output to standard error, C code's prints included."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        yield
+    finally:
+        sys.stdout.flush()
+        os.dup2(kept, 1)
+        os.close(kept)
+
+
+def _log(text: str) -> None:
+    print(f"studio: {text}", file=sys.stderr)
+
+
+def _json(value: dict[str, Any]) -> str:
+    return json.dumps(value, indent=2, allow_nan=False)

@@ -1,0 +1,1 @@
+"""Everything beneath the browser: skeletons in, taught robot out; headless and deterministic."""

@@ -1,0 +1,178 @@
+"""The whole paper in one go: streams or recordings in, a robot that does it alone, and numbers."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from operator import itemgetter
+from pathlib import Path
+
+from studio.engine.demonstration import (
+    Demonstration,
+    DemonstrationSet,
+    Interpolation,
+    demonstrations_of,
+)
+from studio.engine.errors import FileError, NothingTaughtError
+from studio.engine.follow import follow, ticks_of
+from studio.engine.gate import GateMode
+from studio.engine.mcap_file import is_mcap, read_recording
+from studio.engine.pipeline import Pipeline
+from studio.engine.recording import Recording
+from studio.engine.retarget import Mapping
+from studio.engine.robot import load_robot
+from studio.engine.skeleton import Side
+from studio.engine.sources import SkeletonRecording, read_skeletons
+from studio.engine.teaching import (
+    LearnerSettings,
+    Lesson,
+    Replay,
+    Reproduction,
+    learn,
+    replay,
+    reproduce,
+)
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What the user chose."""
+
+    side: Side = "left"
+    mapping: Mapping = "exact"
+    gate: GateMode = "sequence"
+    learner: LearnerSettings = LearnerSettings()
+    interpolation: Interpolation = "even"
+    seed: int = 0  # of the random interpolation
+
+
+@dataclass(frozen=True)
+class FileOutcome:
+    """What became of one file, in frames of the file (of a recording: in its ticks)."""
+
+    path: str
+    format: str
+    frames: int
+    armed: tuple[tuple[int, int], ...]  # first and last frame of every armed stretch
+    armed_frames: int
+    held: dict[str, int]  # why the robot did not follow -> frames
+    limited_frames: int  # in which a position or velocity limit bit
+    warning: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Experiment:
+    """All that came out. Without demonstrations only ``files`` and ``error`` are filled."""
+
+    setup: Setup
+    files: tuple[FileOutcome, ...]
+    error: str = ""
+    lesson: Lesson | None = None
+    reproduction: Reproduction | None = None
+    replays: tuple[Replay, ...] = ()
+
+
+@dataclass(eq=False)
+class _Teachers:
+    """What has been taught so far."""
+
+    files: list[FileOutcome] = field(default_factory=list)
+    demonstrations: list[Demonstration] = field(default_factory=list)
+
+
+def run_experiment(
+    inputs: Sequence[Path | SkeletonRecording],
+    setup: Setup,
+    keep: Callable[[Recording], None] | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Experiment:
+    """Teach from every input, learn, and reproduce.
+
+    Parameters
+    ----------
+    inputs : sequence
+        Paths of skeleton files or of MCAP recordings, or skeletons already at hand.
+    setup : Setup
+    keep : callable, optional
+        Is given the recording of every skeleton stream that was followed.
+    progress : callable, optional
+        Is told in words what goes on.
+
+    Raises
+    ------
+    FileError
+        Where a file cannot be used.
+    """
+    teachers = _Teachers()
+    for given in inputs:
+        progress(f"teaching from {given if isinstance(given, Path) else given.path}")
+        recording, outcome = _taught(given, setup)
+        teachers.files.append(outcome)
+        teachers.demonstrations += demonstrations_of(recording, outcome.path)
+        if keep is not None and recording.samples:
+            keep(recording)
+    try:
+        taught = DemonstrationSet.of(teachers.demonstrations, setup.interpolation, setup.seed)
+    except NothingTaughtError:
+        return Experiment(setup, tuple(teachers.files), error=_why_nothing(teachers.files))
+    progress(f"learning with {setup.learner.neurons} neurons, then reproducing")
+    lesson = learn(taught, setup.learner)
+    reproduction = reproduce(lesson)
+    progress("replaying the demonstrations")
+    replays = tuple(
+        replay(each, rows) for each, rows in zip(taught.demonstrations, taught.rows, strict=True)
+    )
+    return Experiment(setup, tuple(teachers.files), "", lesson, reproduction, replays)
+
+
+def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, FileOutcome]:
+    if isinstance(given, Path) and is_mcap(given):
+        recording = read_recording(given)
+        made_with = (recording.info.side, recording.info.mapping)
+        if made_with != (setup.side, setup.mapping):
+            raise FileError(
+                f"{given}: recorded with the {made_with[0]} arm and the {made_with[1]} mapping; "
+                f"give --arm {made_with[0]} --mapping {made_with[1]}"
+            )
+        ticks = list(range(len(recording.samples)))
+        return recording, _outcome(str(given), "studio mcap 1", ticks, recording)
+    stream = read_skeletons(given) if isinstance(given, Path) else given
+    recording = follow(
+        stream, Pipeline.for_robot(load_robot(), setup.side, setup.mapping, setup.gate)
+    )
+    outcome = _outcome(
+        str(stream.path), stream.format, ticks_of(stream.frame_times).tolist(), recording
+    )
+    return recording, outcome
+
+
+def _outcome(path: str, name: str, ticks: Sequence[int], recording: Recording) -> FileOutcome:
+    """Count a file's frames by what the tick that first saw each of them decided."""
+    seen = [recording.samples[tick] for tick in ticks]
+    armed = []
+    for is_armed, group in groupby(enumerate(s.gate.armed for s in seen), key=itemgetter(1)):
+        indices = [i for i, _ in group]
+        if is_armed:
+            armed.append((indices[0], indices[-1]))
+    held: dict[str, int] = {}
+    for sample in seen:
+        if sample.held:
+            held[sample.held] = held.get(sample.held, 0) + 1
+    return FileOutcome(
+        path=path,
+        format=name,
+        frames=len(seen),
+        armed=tuple(armed),
+        armed_frames=sum(sample.gate.armed for sample in seen),
+        held=held,
+        limited_frames=sum(sample.limited for sample in seen),
+        warning=recording.warning,
+    )
+
+
+def _why_nothing(files: Sequence[FileOutcome]) -> str:
+    reasons = []
+    for file in files:
+        longest = max(file.held.items(), key=itemgetter(1), default=("no frames", 0))
+        why = f"armed for {file.armed_frames} frames only" if file.armed else longest[0]
+        reasons.append(f"{file.path}: {why}")
+    return "nothing was taught: " + "; ".join(reasons)

@@ -1,0 +1,128 @@
+"""Where every link is for given joint angles: forward kinematics of a tree of revolute joints.
+
+A joint's transform is affine in the sine and cosine of its angle (Rodrigues' formula),
+
+    T(q) = T_parent_joint · rotation(axis, q) = constant + sine · sin q + cosine · cos q,
+
+so the transforms of all joints come from three tables at once, and the links from products of them.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from studio.engine.errors import StudioError
+from studio.engine.skeleton import FloatArray
+from studio.engine.urdf import UrdfJoint
+
+
+@dataclass(frozen=True, eq=False)
+class Kinematics:
+    """The joints in an order in which each parent link comes before its children."""
+
+    root: str
+    children: tuple[str, ...]  # (J,) the link that each joint carries
+    parents: Mapping[str, int]  # link -> the joint that carries its parent; -1 is the root
+    columns: tuple[int, ...]  # (J,) which given angle turns each joint; any for a fixed one
+    constant: FloatArray  # (J, 4, 4)
+    sine: FloatArray  # (J, 4, 4), zero for a fixed joint
+    cosine: FloatArray  # (J, 4, 4), zero for a fixed joint
+    angle_count: int
+
+    @classmethod
+    def of(cls, root: str, joints: Sequence[UrdfJoint], names: Sequence[str]) -> "Kinematics":
+        """Return the kinematics of ``joints``, whose angles will come in the order of ``names``."""
+        ordered = _from_the_root(root, joints)
+        children = tuple(joint.child for joint in ordered)
+        carrier = {root: -1} | {child: index for index, child in enumerate(children)}
+        tables = np.array([_coefficients(joint) for joint in ordered])
+        return cls(
+            root=root,
+            children=children,
+            parents=MappingProxyType({joint.child: carrier[joint.parent] for joint in ordered}),
+            columns=tuple(names.index(j.name) if j.movable else 0 for j in ordered),
+            constant=tables[:, 0],
+            sine=tables[:, 1],
+            cosine=tables[:, 2],
+            angle_count=len(names),
+        )
+
+    def forward(self, link: str, angles: ArrayLike) -> FloatArray:
+        """Return T_root_link (..., 4, 4) for angles (..., N) [rad]."""
+        values = self._checked(angles)
+        path = self._path(link)
+        if not path:
+            return np.broadcast_to(np.eye(4), (*values.shape[:-1], 4, 4)).copy()
+        steps = self._transforms(values, path)
+        T = steps[..., 0, :, :]
+        for step in range(1, len(path)):
+            T = T @ steps[..., step, :, :]
+        return T
+
+    def all_links(self, angles: ArrayLike) -> dict[str, FloatArray]:
+        """Return T_root_link (4, 4) of every link for angles (N,) [rad]."""
+        values = self._checked(angles)
+        if values.ndim != 1:
+            raise StudioError(f"expected one row of {self.angle_count} angles, not {values.shape}")
+        steps = self._transforms(values, list(range(len(self.children))))
+        poses = {self.root: np.eye(4)}
+        carried: list[FloatArray] = []
+        for child, step in zip(self.children, steps, strict=True):
+            parent = self.parents[child]
+            carried.append(step if parent < 0 else carried[parent] @ step)
+            poses[child] = carried[-1]
+        return poses
+
+    def _transforms(self, angles: FloatArray, joints: list[int]) -> FloatArray:
+        """Return T_parent_child (..., len(joints), 4, 4) of these joints."""
+        turned = angles[..., [self.columns[joint] for joint in joints], None, None]
+        swing = self.sine[joints] * np.sin(turned) + self.cosine[joints] * np.cos(turned)
+        transforms: FloatArray = self.constant[joints] + swing
+        return transforms
+
+    def _path(self, link: str) -> list[int]:
+        """Return the joints from the root to a link."""
+        if link != self.root and link not in self.parents:
+            raise StudioError(f"no link {link!r}; there are {', '.join(self.children)}")
+        path: list[int] = []
+        while link != self.root:
+            path.append(self.children.index(link))
+            parent = self.parents[link]
+            link = self.root if parent < 0 else self.children[parent]
+        return path[::-1]
+
+    def _checked(self, angles: ArrayLike) -> FloatArray:
+        values = np.asarray(angles, dtype=np.float64)
+        if values.ndim == 0 or values.shape[-1] != self.angle_count:
+            raise StudioError(f"expected (..., {self.angle_count}) angles, not {values.shape}")
+        return values
+
+
+def _from_the_root(root: str, joints: Sequence[UrdfJoint]) -> list[UrdfJoint]:
+    """Return the joints so that each follows the one that carries its parent link."""
+    ordered: list[UrdfJoint] = []
+    links = [root]
+    for link in links:  # grows while it is walked
+        below = [joint for joint in joints if joint.parent == link]
+        ordered += below
+        links += [joint.child for joint in below]
+    return ordered
+
+
+def _coefficients(joint: UrdfJoint) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the constant, sine and cosine parts (4, 4) of a joint's transform."""
+    T, zero = joint.T_parent_joint, np.zeros((4, 4))
+    if not joint.movable:
+        return T, zero, zero
+    x, y, z = joint.axis
+    along = np.outer(joint.axis, joint.axis)  # what the turn leaves alone
+    crossed = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    parts = []
+    for turned, corner in ((along, 1.0), (crossed, 0.0), (np.eye(3) - along, 0.0)):
+        part = np.zeros((4, 4))
+        part[:3, :3], part[3, 3] = turned, corner
+        parts.append(T @ part)
+    return parts[0], parts[1], parts[2]

@@ -1,0 +1,63 @@
+"""The numbers that people see, each defined once: errors of joints, of the hand, along time."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.distance import cdist
+
+from studio.engine.performance import Performance, joint_columns, whole_body
+from studio.engine.robot import load_robot
+from studio.engine.skeleton import FloatArray, Side
+
+
+@dataclass(frozen=True, eq=False)
+class Deviation:
+    """How far a measured performance is from the commands that it should follow."""
+
+    joint_rmse: FloatArray  # (D,) [rad]
+    hand_mean: float  # [m] mean distance at equal times
+    hand_max: float  # [m]
+    hand_dtw: float  # [m] mean distance along the best warping of time
+
+
+def deviation(performance: Performance, rows: FloatArray, joints: tuple[str, ...]) -> Deviation:
+    """Compare what was measured with ``rows`` (T, D) [rad], at the T stamps over the duration.
+
+    The hand is the origin of the link ``left_hand`` or ``right_hand``.
+    """
+    side = performance.side
+    stamps = np.linspace(0.0, performance.duration, len(rows))
+    measured = performance.measured_at(stamps)
+    error = measured[:, joint_columns(side, joints)] - rows
+    reached = hand_path(measured, side)
+    intended = hand_path(whole_body(rows, side, joints), side)
+    distance = np.linalg.norm(reached - intended, axis=1)
+    return Deviation(
+        joint_rmse=np.sqrt(np.mean(error**2, axis=0)),
+        hand_mean=float(distance.mean()),
+        hand_max=float(distance.max()),
+        hand_dtw=dtw_distance(reached, intended),
+    )
+
+
+def hand_path(joint_positions: FloatArray, side: Side) -> FloatArray:
+    """Return the hand's positions (T, 3) [m] in the base's frame, for joints (T, 15) [rad]."""
+    poses = load_robot().forward_kinematics(f"{side}_hand", joint_positions)
+    return poses[..., :3, 3]
+
+
+def dtw_distance(a: FloatArray, b: FloatArray) -> float:
+    """Return the mean distance of matched points along the best warping of two paths (T, d).
+
+    Dynamic time warping (Sakoe and Chiba 1978, symmetric steps of weight 1): the path with the
+    least summed distance, divided by its number of matches; among equal sums the shortest.
+    """
+    cost = cdist(a, b)
+    best = [(0.0, 0)] + [(np.inf, 0)] * len(b)
+    for row in cost.tolist():
+        previous, best = best, [(np.inf, 0)]
+        for j, distance in enumerate(row):
+            total, matches = min(previous[j], previous[j + 1], best[j])
+            best.append((total + distance, matches + 1))
+    total, matches = best[-1]
+    return float(total / matches)

@@ -1,0 +1,126 @@
+"""What stands around the robot: a desk and building blocks, where pushing one down is possible.
+
+Frame: the floor below the robot's base; x forward, y to the robot's left, z up.
+"""
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import cache
+
+from studio.engine.errors import FileError, StudioError
+from studio.engine.resources import resource_root
+from studio.engine.skeleton import Side
+from studio.engine.urdf import Box, read_urdf
+
+Triple = tuple[float, float, float]
+
+# Both mappings can push the block here, with 2 cm to spare in each direction.
+_DESK_POSITION: Triple = (0.75, 0.15, 0.70)
+_BLOCK_POSITION: Triple = (0.80, 0.20, 0.87)
+
+
+@dataclass(frozen=True)
+class Block:
+    """A box that can be moved, its edges along the axes to begin with.
+
+    Raises
+    ------
+    StudioError
+        Where a number is not finite, or a size or the mass is not positive.
+    """
+
+    size: Triple  # along x, y, z [m]
+    position: Triple  # of its center [m]
+    mass: float  # [kg]
+    friction: float
+
+    def __post_init__(self) -> None:
+        _check("a block", self.size, self.position, self.friction)
+        if not (math.isfinite(self.mass) and self.mass > 0):
+            raise StudioError(f"a block's mass must be positive, not {self.mass!r} kg")
+
+
+@dataclass(frozen=True)
+class Desk:
+    """A desk's top, which does not move.
+
+    Raises
+    ------
+    StudioError
+        Where a number is not finite, or a size is not positive.
+    """
+
+    size: Triple  # along x, y, z [m]
+    position: Triple  # of the middle of the top [m]
+    friction: float
+
+    def __post_init__(self) -> None:
+        _check("a desk", self.size, self.position, self.friction)
+
+
+@cache
+def default_desk() -> Desk:
+    """Return the desk of urdf/desk.urdf in its place."""
+    size, _, friction = _box("desk")
+    return Desk(size, _DESK_POSITION, friction)
+
+
+@cache
+def default_blocks() -> tuple[Block, ...]:
+    """Return the block of urdf/block.urdf standing in its place, and two that lie out of the way."""
+    size, mass, friction = _box("block")
+    lying = Block((0.12, 0.06, 0.05), (0.60, 0.50, 0.745), 0.2, friction)
+    cube = Block((0.06, 0.06, 0.06), (0.95, 0.48, 0.75), 0.12, friction)
+    return Block(size, _BLOCK_POSITION, mass, friction), lying, cube
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A desk and blocks, told for the left arm and mirrored (`placed_...`) if the right is taught.
+
+    Raises
+    ------
+    StudioError
+        Where there is no block.
+    """
+
+    desk: Desk = field(default_factory=default_desk)
+    blocks: tuple[Block, ...] = field(default_factory=default_blocks)  # the first is the task's
+    arm: Side = "left"  # the one that is taught
+
+    def __post_init__(self) -> None:
+        if not self.blocks:
+            raise StudioError("a scene needs at least one block, the one to push down")
+        if self.arm not in ("left", "right"):
+            raise StudioError(f"the taught arm is left or right, not {self.arm!r}")
+
+    @property
+    def placed_desk(self) -> Desk:
+        """The desk where it really stands."""
+        return replace(self.desk, position=self._placed(self.desk.position))
+
+    @property
+    def placed_blocks(self) -> tuple[Block, ...]:
+        """The blocks where they really stand."""
+        return tuple(replace(b, position=self._placed(b.position)) for b in self.blocks)
+
+    def _placed(self, position: Triple) -> Triple:
+        x, y, z = position
+        return position if self.arm == "left" else (x, -y, z)
+
+
+def _box(name: str) -> tuple[Triple, float, float]:
+    """Return size [m], mass [kg] and friction of the box that urdf/<name>.urdf collides as."""
+    path = resource_root() / "urdf" / f"{name}.urdf"
+    link = read_urdf(path).links[0]
+    shape = link.collisions[0].shape
+    if not isinstance(shape, Box):
+        raise FileError(f"{path}: its collision shape must be a box, not {shape}; reinstall")
+    return shape.size, link.mass, link.friction
+
+
+def _check(what: str, size: Triple, position: Triple, friction: float) -> None:
+    if not all(math.isfinite(number) for number in (*size, *position, friction)):
+        raise StudioError(f"{what}'s size, position and friction must be finite")
+    if min(size) <= 0 or friction < 0:
+        raise StudioError(f"{what} has sides above 0 m and a friction of 0 or more")

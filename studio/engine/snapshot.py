@@ -1,0 +1,73 @@
+"""What a session shows of itself after every tick: immutable, so that any thread may draw it."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from studio.engine.demonstration import Demonstration
+from studio.engine.gate import GateMode, GateStatus
+from studio.engine.retarget import Mapping
+from studio.engine.skeleton import FloatArray, Side, Skeleton
+from studio.engine.teaching import Lesson, Reproduction
+from studio.engine.world import WorldState
+
+
+class Mode(StrEnum):
+    """What the session is doing, for the state pill."""
+
+    IDLE = "idle"
+    WATCHING = "watching"  # the robot waits for the gate
+    ARMED = "armed"  # the robot follows
+    RECORDING = "recording"
+    PLAYING = "playing"
+
+
+@dataclass(frozen=True)
+class SourceStatus:
+    """The source of skeletons."""
+
+    name: str  # as people know it; empty where none is chosen
+    frames: int
+    seconds: float
+    has_hand_states: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """A demonstration on the list."""
+
+    demonstration: Demonstration
+    block_down: bool  # when it was taught
+
+
+@dataclass(frozen=True)
+class Message:
+    """The newest thing that a person should know; the number tells one from the next."""
+
+    number: int
+    text: str
+    is_error: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """Everything that a panel may draw."""
+
+    mode: Mode
+    message: Message
+    time: float  # [s] since the present activity began
+    duration: float  # [s] that it will take, 0 for none
+    side: Side
+    mapping: Mapping
+    gate_mode: GateMode
+    source: SourceStatus | None
+    skeleton: Skeleton | None  # the newest one
+    gate: GateStatus | None  # None while nobody is watched
+    held: str  # why the robot does not follow
+    world: WorldState
+    entries: tuple[Entry, ...]
+    chosen: int  # index of the ghost's demonstration; -1 for none
+    ghost: FloatArray | None  # (15,) [rad], the chosen demonstration at this moment of playing
+    lesson: Lesson | None
+    reproduction: Reproduction | None
+    recorded: int  # ticks in the recording that is being made
+    saved_as: str  # the last recording's file

@@ -1,0 +1,74 @@
+"""Values out of JSON of unknown origin, each checked before it is believed."""
+
+import json
+import math
+from collections.abc import Sequence
+from typing import TypeGuard
+
+import numpy as np
+
+from studio.engine.errors import StudioError
+from studio.engine.skeleton import JOINT_COUNT, FloatArray, Joint
+from studio.engine.sources.family import shown
+
+
+def parse_json(text: str) -> object:
+    """Return the value that a JSON text holds; raise StudioError that names the place otherwise.
+
+    NaN and Infinity pass here: whoever uses a number checks it and knows what to call it.
+    """
+    try:
+        value: object = json.loads(text)
+    except json.JSONDecodeError as error:
+        at_end = error.pos >= len(text.rstrip())
+        cut = " (the text ends there: the file seems to be cut off)" if at_end else ""
+        raise StudioError(
+            f"line {error.lineno}, column {error.colno}: expected valid JSON, "
+            f"found {shown(text[error.pos : error.pos + 20])}: {error.msg}{cut}"
+        ) from None
+    except RecursionError:
+        raise StudioError("expected a recording, found JSON nested too deeply") from None
+    except ValueError as error:  # a whole number of thousands of digits
+        raise StudioError(f"expected numbers of usual length: {error}") from None
+    return value
+
+
+def as_object(value: object, what: str) -> dict[str, object]:
+    """Return a JSON object; raise StudioError where the value is something else."""
+    if not isinstance(value, dict):
+        raise StudioError(f"expected {what} as an object, found {shown(value)}")
+    return value
+
+
+def as_list(value: object, what: str, length: int | None = None) -> list[object]:
+    """Return a JSON list, of that length if one is given; raise StudioError otherwise."""
+    if not isinstance(value, list):
+        raise StudioError(f"expected {what} as a list, found {shown(value)}")
+    if length is not None and len(value) != length:
+        raise StudioError(f"expected {length} {what}, found {len(value)}")
+    return value
+
+
+def as_number(value: object, what: str) -> float:
+    """Return a finite number; raise StudioError for anything else, true and "1" included."""
+    if not _is_finite_number(value):
+        raise StudioError(f"expected {what} as a finite number, found {shown(value)}")
+    return float(value)
+
+
+def as_positions(points: Sequence[Sequence[object]]) -> FloatArray:
+    """Return the positions (25, 3) [m]; raise StudioError that names the joint otherwise."""
+    for joint, point in zip(Joint, points, strict=True):
+        for axis, value in zip("xyz", point, strict=True):
+            if not _is_finite_number(value):
+                raise StudioError(
+                    f"joint {joint.value} ({joint.name.lower()}): expected {axis} "
+                    f"as a finite number, found {shown(value)}"
+                )
+    return np.array(points, dtype=np.float64).reshape(JOINT_COUNT, 3)
+
+
+def _is_finite_number(value: object) -> TypeGuard[int | float]:
+    if type(value) is float:
+        return math.isfinite(value)
+    return type(value) is int and abs(value) < 2**1023  # a larger one is no float

@@ -1,0 +1,289 @@
+"""The simulated world: Baxter, a desk and building blocks, in pybullet without a window.
+
+Physics runs at 240 Hz, eight whole steps to a control tick. Motors keep to the robot's effort
+limits always, and to its velocity limits as long as the effort suffices (when many joints brake
+at once it may not: up to a tenth above has been measured).
+
+Each shoulder's s1 carries a spring, as on the real robot, whose motors alone could not hold a
+stretched arm (56 of their 50 N m). Rethink Robotics names those springs and publishes no figures,
+so ours is a model: a passive torque of -38 N m · cos(s1), the factor that leaves the motor least
+to do over all poses: 22 N m at most.
+"""
+
+import math
+import tempfile
+import threading
+from collections.abc import Mapping
+from types import TracebackType
+from typing import Self
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from studio.engine.errors import FileError, StudioError
+from studio.engine.robot import BASE_HEIGHT, CONTROL_RATE, load_robot, urdf_path
+from studio.engine.scene import Block, Desk, Scene, Triple
+from studio.engine.silence import silenced_stdout
+from studio.engine.skeleton import SIDES, FloatArray
+from studio.engine.world_state import DOWN_TILT, REST_TICKS, WorldState, is_slow, tilt_of
+
+with silenced_stdout():
+    import pybullet
+
+__all__ = ["Block", "Desk", "Scene", "World", "WorldState"]
+
+SUBSTEPS = 8  # physics steps in a control tick
+GRAVITY = 9.81  # [m/s²]
+SOLVER_ITERATIONS = 50  # at most
+SOLVER_RESIDUAL = 1e-4  # at which the solver stops earlier; the task ends the same
+S1_SPRING = 38.0  # [N m] at s1 = 0
+
+# The share of a joint's error that its motor takes away in one physics step: half of pybullet's
+# usual gain. A stiffer motor brakes harder than the effort limits allow, and overshoots.
+POSITION_GAIN = 0.05
+# The share of a target's own velocity that its motor is told beside the position. With it a joint
+# that follows steadily is at its target when the tick ends: on the average over the tick it is
+# half a tick's way short, and the gain makes of that what is missing here to 1.
+FEED_FORWARD = 1.0 - POSITION_GAIN * SUBSTEPS / 2
+
+
+class World:
+    """A fresh world; the thread that makes it owns it. Same commands, same states, to the bit.
+
+    Parameters
+    ----------
+    scene
+        What stands around the robot, and which arm is taught.
+    joint_positions
+        Where joints start and are held [rad]; those not named are at zero.
+
+    Raises
+    ------
+    StudioError
+        For joints that do not exist, or angles that are not finite or outside the limits; by all
+        methods also when another thread calls, or after `close`.
+    FileError
+        Where the robot's description cannot be used.
+    """
+
+    def __init__(
+        self, scene: Scene | None = None, joint_positions: Mapping[str, float] | None = None
+    ) -> None:
+        self.scene = Scene() if scene is None else scene
+        self._robot = load_robot()
+        self._owner = threading.get_ident()
+        self._targets = np.zeros(len(self._robot.joint_names))  # [rad]
+        self._targets = self._with(joint_positions or {})
+        self._followed = self._targets.copy()  # the targets of the tick before
+        self._touched, self._slow_ticks, self._ticks = False, 0, 0
+        self._closed = False
+        with silenced_stdout():
+            self._client: int = pybullet.connect(pybullet.DIRECT)
+        try:
+            self._furnish()
+            self._place_robot()
+        except BaseException:
+            self.close()
+            raise
+        self._state = self._observe()
+
+    @property
+    def state(self) -> WorldState:
+        """The world as the last tick left it."""
+        self._require_owner()
+        return self._state
+
+    def apply(self, targets: Mapping[str, float]) -> None:
+        """Set position targets [rad] of named joints; they hold until they are set anew.
+
+        Raises
+        ------
+        StudioError
+            For a joint that does not exist, and an angle that is not finite or outside the
+            limits; then no target changes.
+        """
+        self._require_owner()
+        self._targets = self._with(targets)
+
+    def step(self) -> WorldState:
+        """Let one control tick of 1/30 s pass and return what it led to."""
+        self._require_owner()
+        self._drive()
+        springs = [-S1_SPRING * math.cos(self._state.joint_positions[i]) for i in self._s1]
+        motors = [self._motors[i] for i in self._s1]
+        for _ in range(SUBSTEPS):
+            pybullet.setJointMotorControlArray(
+                self._body,
+                motors,
+                pybullet.TORQUE_CONTROL,  # beside the position motor, for one physics step
+                forces=springs,
+                physicsClientId=self._client,
+            )
+            pybullet.stepSimulation(physicsClientId=self._client)
+            self._touched = self._touched or self._arm_touches_block()
+        self._ticks += 1
+        self._state = self._observe()
+        return self._state
+
+    def close(self) -> None:
+        """Free the world's memory; may be called twice."""
+        if not self._closed:
+            self._require_owner()
+            self._closed = True
+            pybullet.disconnect(physicsClientId=self._client)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _require_owner(self) -> None:
+        if self._closed:
+            raise StudioError("this world is closed; make a new one")
+        if threading.get_ident() != self._owner:
+            raise StudioError("a world belongs to the thread that made it; call it from there")
+
+    def _with(self, targets: Mapping[str, float]) -> FloatArray:
+        """Return all targets (15,) [rad] with some of them set anew."""
+        changed = self._targets.copy()
+        limits = self._robot.limits
+        for name, angle in targets.items():
+            index = self._robot.joint_index(name)
+            lower, upper = limits.lower[index], limits.upper[index]
+            if not lower <= angle <= upper:  # nor is NaN
+                raise StudioError(
+                    f"{name} goes from {lower:.4f} to {upper:.4f} rad and cannot be told {angle!r}"
+                )
+            changed[index] = angle
+        return changed
+
+    def _furnish(self) -> None:
+        """Set up physics, the floor, the desk and the blocks."""
+        client = {"physicsClientId": self._client}
+        pybullet.setGravity(0.0, 0.0, -GRAVITY, **client)
+        pybullet.setTimeStep(1.0 / (CONTROL_RATE * SUBSTEPS), **client)
+        pybullet.setPhysicsEngineParameter(
+            numSolverIterations=SOLVER_ITERATIONS, solverResidualThreshold=SOLVER_RESIDUAL, **client
+        )
+        floor = pybullet.createCollisionShape(pybullet.GEOM_PLANE, **client)
+        pybullet.createMultiBody(0.0, floor, **client)
+        desk = self.scene.placed_desk
+        self._box(desk.size, desk.position, 0.0, desk.friction)  # no mass: it does not move
+        self._blocks = [
+            self._box(block.size, block.position, block.mass, block.friction)
+            for block in self.scene.placed_blocks
+        ]
+
+    def _box(self, size: Triple, position: Triple, mass: float, friction: float) -> int:
+        client = {"physicsClientId": self._client}
+        half = [side / 2 for side in size]
+        shape = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=half, **client)
+        body: int = pybullet.createMultiBody(mass, shape, basePosition=position, **client)
+        pybullet.changeDynamics(body, -1, lateralFriction=friction, **client)
+        return body
+
+    def _place_robot(self) -> None:
+        """Load the robot and put its joints where they start."""
+        client = {"physicsClientId": self._client}
+        self._body = _load_robot(self._client)
+        found = [
+            pybullet.getJointInfo(self._body, index, **client)
+            for index in range(pybullet.getNumJoints(self._body, **client))
+        ]
+        motors = {info[1].decode(): info[0] for info in found}  # pybullet's order is its own
+        self._motors = [motors[name] for name in self._robot.joint_names]
+        self._s1 = [self._robot.joint_index(f"{side}_s1") for side in SIDES]
+        prefix = f"{self.scene.arm}_"
+        self._arm_links = {info[0] for info in found if info[12].decode().startswith(prefix)}
+        for motor, angle in zip(self._motors, self._targets.tolist(), strict=True):
+            pybullet.resetJointState(self._body, motor, angle, **client)
+
+    def _drive(self) -> None:
+        """Hand the targets to the motors, with the velocity at which each target moves."""
+        limits = self._robot.limits
+        way = self._targets - self._followed
+        # A target further away than a joint gets in a tick has jumped: it has no velocity.
+        moves = np.abs(way) <= limits.velocity / CONTROL_RATE * (1 + 1e-9)
+        velocities = np.where(moves, FEED_FORWARD * way * CONTROL_RATE, 0.0)
+        self._followed = self._targets
+        for index, motor in enumerate(self._motors):
+            # Not setJointMotorControlArray: that one ignores velocity limits.
+            pybullet.setJointMotorControl2(
+                self._body,
+                motor,
+                pybullet.POSITION_CONTROL,
+                targetPosition=self._targets[index],
+                targetVelocity=velocities[index],
+                positionGain=POSITION_GAIN,
+                force=limits.effort[index],
+                maxVelocity=limits.velocity[index],
+                physicsClientId=self._client,
+            )
+
+    def _arm_touches_block(self) -> bool:
+        contacts = pybullet.getContactPoints(
+            bodyA=self._body, bodyB=self._blocks[0], physicsClientId=self._client
+        )
+        # [3] is the robot's link, [9] the normal force: pybullet also lists what is merely near.
+        return any(contact[3] in self._arm_links and contact[9] > 0.0 for contact in contacts)
+
+    def _observe(self) -> WorldState:
+        client = {"physicsClientId": self._client}
+        joints = pybullet.getJointStates(self._body, self._motors, **client)
+        poses = np.array(
+            [
+                np.concatenate(pybullet.getBasePositionAndOrientation(block, **client))
+                for block in self._blocks
+            ]
+        )
+        velocity, spin = pybullet.getBaseVelocity(self._blocks[0], **client)
+        slow = is_slow(math.hypot(*velocity), math.hypot(*spin))
+        self._slow_ticks = self._slow_ticks + 1 if slow else 0
+        tilt = tilt_of(poses[0])
+        at_rest = self._slow_ticks >= REST_TICKS
+        return WorldState(
+            time=self._ticks / CONTROL_RATE,
+            joint_positions=_frozen([joint[0] for joint in joints]),
+            joint_velocities=_frozen([joint[1] for joint in joints]),
+            block_poses=_frozen(poses),
+            touched=self._touched,
+            tilt=tilt,
+            block_down=self._touched and tilt > DOWN_TILT and at_rest,
+        )
+
+
+def _load_robot(client: int) -> int:
+    """Load the robot without its looks, whose meshes pybullet would read for a second and more."""
+    path = urdf_path()
+    tree = ElementTree.parse(path)
+    for link in tree.getroot().findall("link"):
+        for visual in link.findall("visual"):
+            link.remove(visual)
+    with tempfile.NamedTemporaryFile(suffix=".urdf") as file:
+        tree.write(file)
+        file.flush()
+        try:
+            with silenced_stdout():
+                body: int = pybullet.loadURDF(
+                    file.name,
+                    basePosition=(0.0, 0.0, BASE_HEIGHT),
+                    useFixedBase=True,
+                    flags=pybullet.URDF_USE_INERTIA_FROM_FILE,  # else it goes by the shapes
+                    physicsClientId=client,
+                )
+        except pybullet.error as error:
+            raise FileError(f"{path}: pybullet cannot load it ({error}); reinstall") from error
+    return body
+
+
+def _frozen(values: ArrayLike) -> FloatArray:
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,36 @@
+"""What is known of the world after a control tick, and when a block counts as pushed down."""
+
+import math
+from dataclasses import dataclass
+
+from studio.engine.skeleton import FloatArray
+
+DOWN_TILT = math.radians(60.0)  # [rad] a block that is down leans more than this
+REST_SPEED = 0.02  # [m/s] of the center of a block at rest, at most
+REST_SPIN = 0.2  # [rad/s] of a block at rest, at most
+REST_TICKS = 6  # that a block stays below both before it is at rest: 0.2 s
+
+
+@dataclass(frozen=True, eq=False)
+class WorldState:
+    """The world at one moment."""
+
+    time: float  # [s] since the world began
+    joint_positions: FloatArray  # (15,) [rad], in the order of robot.JOINT_NAMES
+    joint_velocities: FloatArray  # (15,) [rad/s]
+    block_poses: FloatArray  # (B, 7) x y z [m] from the floor below the base, qx qy qz qw
+    touched: bool  # the taught arm has touched the task's block
+    tilt: float  # [rad] of the task's block from the upright
+    block_down: bool  # touched, leaning more than DOWN_TILT, and at rest
+
+
+def tilt_of(pose: FloatArray) -> float:
+    """Return the angle [rad] between a block's own z axis and the upright, for its pose (7,)."""
+    x, y = float(pose[3]), float(pose[4])
+    upright = 1.0 - 2.0 * (x * x + y * y)  # the z component of the rotated z axis
+    return math.acos(min(1.0, max(-1.0, upright)))
+
+
+def is_slow(speed: float, spin: float) -> bool:
+    """Tell whether a block with this speed [m/s] and spin [rad/s] may be at rest."""
+    return speed <= REST_SPEED and spin <= REST_SPIN

@@ -1,0 +1,40 @@
+"""Radial basis function networks for learning a motion from demonstrations.
+
+Arrays in, arrays out: this package knows numpy and scipy, and nothing of robots. Learners follow
+scikit-learn's contract without importing it.
+
+RBFRegressor            the Gaussian network in one linear solve (Eq. 6 to 15, made safe)
+NewrbRegressor          MATLAB's newrb, which grows it neuron by neuron (Table I)
+pooled_variance_floor   the error that no function of time can undercut
+mean_squared_error, largest_error, r_squared    how good a fit is
+save_model, load_model  one JSON file, exact in float64
+
+Equation numbers are those of the source paper; ``seeds/equations.md`` lists where each one lives.
+"""
+
+from studio.rbf.contract import NotFittedError
+from studio.rbf.newrb import GrowthStep, NewrbRegressor
+from studio.rbf.regressor import RBFRegressor
+from studio.rbf.score import (
+    Floor,
+    largest_error,
+    mean_squared_error,
+    pooled_variance_floor,
+    r_squared,
+)
+from studio.rbf.storage import SavedModel, load_model, save_model
+
+__all__ = [
+    "Floor",
+    "GrowthStep",
+    "NewrbRegressor",
+    "NotFittedError",
+    "RBFRegressor",
+    "SavedModel",
+    "largest_error",
+    "load_model",
+    "mean_squared_error",
+    "pooled_variance_floor",
+    "r_squared",
+    "save_model",
+]

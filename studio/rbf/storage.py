@@ -1,0 +1,141 @@
+"""Trained models in one JSON file each, exact in float64.
+
+Python writes a float64 with as many digits as bring the same number back, so a model read from its
+file predicts the same bits. The file is data only; nothing in it is ever executed.
+
+    {"format": "teaching-studio rbf model", "schema": 1, "learner": "RBFRegressor",
+     "time": {"unit": "index", "duration_s": 4.7},
+     "settings": {"n_neurons": 50, ...},
+     "learned": {"centers": [[1.0], ...], "width": 12.5, "weights": [[...], ...], ...}}
+
+Time has a unit because a spread or a width means nothing without one, and a duration because an
+input that counts samples does not say how long the motion takes.
+"""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from studio.rbf.contract import get_settings, require_fitted
+from studio.rbf.newrb import NewrbRegressor
+from studio.rbf.regressor import RBFRegressor
+from studio.rbf.storage_reader import Table, newrb_from, rbf_from
+from studio.rbf.validation import number_above
+
+FORMAT = "teaching-studio rbf model"
+SCHEMA = 1  # raise it whenever a file of the old form would be misread
+
+
+@dataclass(frozen=True, eq=False)
+class SavedModel:
+    """A trained network and the time it speaks of."""
+
+    estimator: RBFRegressor | NewrbRegressor
+    time_unit: str  # of the inputs: "index", "s", ...
+    duration: float  # [s], how long the motion takes
+
+
+def save_model(
+    path: str | Path,
+    estimator: RBFRegressor | NewrbRegressor,
+    *,
+    time_unit: str,
+    duration: float,
+) -> None:
+    """Write a trained network into a JSON file; an older file is replaced only by a whole one.
+
+    A Generator as `random_state` is not written, for its state is not a setting: None is.
+
+    Parameters
+    ----------
+    path : where to
+    estimator : a fitted RBFRegressor or NewrbRegressor
+    time_unit : unit of the inputs, such as "index" (the number of a sample) or "s"
+    duration : how long the motion takes [s]
+
+    Raises
+    ------
+    NotFittedError
+        Before `fit`.
+    ValueError, TypeError
+        Where the unit is empty or the duration is no positive number.
+    OSError
+        Where the file cannot be written.
+
+    """
+    require_fitted(estimator)
+    if not time_unit:
+        raise ValueError('a model names the unit of its inputs, such as "index" or "s"')
+    document = {
+        "format": FORMAT,
+        "schema": SCHEMA,
+        "learner": type(estimator).__name__,
+        "time": {
+            "unit": time_unit,
+            "duration_s": number_above(duration, "duration", 0.0, inclusive=False),
+        },
+        "settings": {name: _plain(value) for name, value in get_settings(estimator).items()},
+        "learned": {
+            name.removesuffix("_"): _plain(value)
+            for name, value in vars(estimator).items()
+            if name.endswith("_")
+        },
+    }
+    path = Path(path)
+    unfinished = path.with_name(path.name + ".part")
+    unfinished.write_text(json.dumps(document, allow_nan=False, indent=1) + "\n", "utf-8")
+    unfinished.replace(path)
+
+
+def load_model(path: str | Path) -> SavedModel:
+    """Read a trained network from a file that `save_model` wrote.
+
+    Raises
+    ------
+    ValueError
+        Where the file is no such model, is mangled or of a newer schema; the message names the
+        file, the place in it, and what was expected.
+    OSError
+        Where the file cannot be read.
+
+    """
+    table = Table(_document(Path(path)), str(path))
+    table.expect("format", FORMAT)
+    table.expect("schema", SCHEMA)
+    learner = table.text("learner")
+    if learner not in ("RBFRegressor", "NewrbRegressor"):
+        raise table.fault("learner", '"RBFRegressor" or "NewrbRegressor"')
+    read = rbf_from if learner == "RBFRegressor" else newrb_from
+    time = table.table("time")
+    return SavedModel(
+        estimator=read(table.table("settings"), table.table("learned")),
+        time_unit=time.text("unit"),
+        duration=time.number("duration_s", positive=True),
+    )
+
+
+def _document(path: Path) -> Any:
+    content = path.read_bytes()
+    try:
+        return json.loads(content.decode("utf-8"))
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path}: not a JSON file as save_model writes it: {error}") from error
+
+
+def _plain(value: Any) -> Any:
+    """Return a setting or learned value as JSON knows it; an infinite number becomes null."""
+    if isinstance(value, np.random.Generator):
+        return None
+    if isinstance(value, np.ndarray | np.generic):
+        return _plain(value.tolist())
+    if hasattr(value, "_asdict"):  # a named tuple
+        value = value._asdict()
+    if isinstance(value, Mapping):
+        return {name: _plain(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(entry) for entry in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value

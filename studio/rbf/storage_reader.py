@@ -1,0 +1,170 @@
+"""Reading a stored model with suspicion: every value is checked before it becomes a network."""
+
+import math
+from dataclasses import fields
+from typing import Any, cast, get_args
+
+import numpy as np
+
+from studio.rbf.basis import FloatArray
+from studio.rbf.newrb import GrowthStep, NewrbRegressor, StopReason
+from studio.rbf.regressor import RBFRegressor
+
+
+class Table:
+    """A JSON object, and where it stands, so that a fault can name its place.
+
+    All methods raise ValueError in words where the value is missing or not what they return.
+    """
+
+    def __init__(self, values: Any, place: str) -> None:
+        self.place = place
+        if not isinstance(values, dict):
+            raise ValueError(f"{place}: expected a JSON object, found {_shown(values)}")  # noqa: TRY004 the file is wrong, not the caller
+        self.values = values
+
+    def fault(self, key: str, expected: str) -> ValueError:
+        """Return the error for one value."""
+        found = _shown(self.values[key]) if key in self.values else "nothing"
+        return ValueError(f"{self.place}: {key}: expected {expected}, found {found}")
+
+    def expect(self, key: str, value: object) -> None:
+        """Return if the value is this one."""
+        if key not in self.values or self.values[key] != value:
+            raise self.fault(key, repr(value))
+
+    def table(self, key: str) -> "Table":
+        """Return an object."""
+        if key not in self.values:
+            raise self.fault(key, "a JSON object")
+        return Table(self.values[key], f"{self.place}: {key}")
+
+    def text(self, key: str) -> str:
+        """Return text that is not empty."""
+        value = self.values.get(key)
+        if not isinstance(value, str) or not value:
+            raise self.fault(key, "text")
+        return value
+
+    def count(self, key: str) -> int:
+        """Return a whole number from zero up."""
+        value = self.values.get(key)
+        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+            raise self.fault(key, "a whole number from 0 up")
+        return value
+
+    def number(self, key: str, *, positive: bool = False) -> float:
+        """Return a finite number."""
+        value = self.values.get(key)
+        expected = "a positive finite number" if positive else "a finite number"
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise self.fault(key, expected)
+        try:
+            number = float(value)
+        except OverflowError:
+            raise self.fault(key, expected) from None
+        if not math.isfinite(number) or (positive and number <= 0.0):
+            raise self.fault(key, expected)
+        return number
+
+    def array(self, key: str, shape: tuple[int | None, ...]) -> FloatArray:
+        """Return finite numbers of a shape in which None stands for any length from 1 up."""
+        expected = f"finite numbers of shape {shape}".replace("None", "any")
+        value = self.values.get(key)
+        if not _only_numbers(value):
+            raise self.fault(key, expected)
+        try:
+            array = np.array(value, dtype=np.float64)
+        except (ValueError, OverflowError):  # rows of different lengths, or a number too large
+            raise self.fault(key, expected) from None
+        fits = len(array.shape) == len(shape) and all(
+            found > 0 and wanted in (None, found)
+            for found, wanted in zip(array.shape, shape, strict=True)
+        )
+        if not fits or not np.isfinite(array).all():
+            raise self.fault(key, expected)
+        return array
+
+
+def _only_numbers(value: Any) -> bool:
+    """Return whether a value is numbers and lists of them; text or true would pass as numbers."""
+    if isinstance(value, list):
+        return all(_only_numbers(entry) for entry in value)
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def rbf_from(settings: Table, learned: Table) -> RBFRegressor:
+    """Return the RBFRegressor of a model's settings and learned values."""
+    estimator = RBFRegressor(**_settings(settings, RBFRegressor))
+    if isinstance(estimator.centers, list):
+        estimator.centers = np.asarray(estimator.centers, dtype=np.float64)
+    _read_network(learned, estimator)
+    estimator.ridge_ = learned.number("ridge")
+    estimator.rank_ = learned.count("rank")
+    infinite = learned.values.get("condition", 0) is None  # JSON has no infinity
+    estimator.condition_ = math.inf if infinite else learned.number("condition")
+    estimator.effective_dof_ = learned.number("effective_dof")
+    return estimator
+
+
+def newrb_from(settings: Table, learned: Table) -> NewrbRegressor:
+    """Return the NewrbRegressor of a model's settings and learned values."""
+    estimator = NewrbRegressor(**_settings(settings, NewrbRegressor))
+    _read_network(learned, estimator)
+    outputs = estimator.weights_.reshape(len(estimator.centers_), -1).shape[1]
+    steps = learned.values.get("history")
+    if not isinstance(steps, list):
+        raise learned.fault("history", "a list")
+    estimator.history_ = tuple(
+        _step(Table(step, f"{learned.place}: history[{place}]"), outputs)
+        for place, step in enumerate(steps)
+    )
+    reason = learned.text("stop_reason")
+    if reason not in get_args(StopReason):
+        raise learned.fault("stop_reason", " or ".join(get_args(StopReason)))
+    estimator.stop_reason_ = cast(StopReason, reason)
+    has_floor = learned.values.get("floor", 0) is not None
+    estimator.floor_ = learned.array("floor", (outputs,)) if has_floor else None
+    return estimator
+
+
+def _step(step: Table, outputs: int) -> GrowthStep:
+    has_ratio = step.values.get("floor_ratio", 0) is not None
+    return GrowthStep(
+        neurons=step.count("neurons"),
+        mse=step.array("mse", (outputs,)),
+        floor_ratio=step.number("floor_ratio") if has_ratio else None,
+        distinct_centers=step.count("distinct_centers"),
+    )
+
+
+def _settings(
+    settings: Table, learner: type[RBFRegressor] | type[NewrbRegressor]
+) -> dict[str, Any]:
+    names = {field.name for field in fields(learner)}
+    if set(settings.values) != names:
+        raise ValueError(
+            f"{settings.place}: expected {', '.join(sorted(names))}; "
+            f"found {', '.join(sorted(settings.values)) or 'nothing'}"
+        )
+    return settings.values
+
+
+def _read_network(learned: Table, estimator: RBFRegressor | NewrbRegressor) -> None:
+    """Read what `predict` needs."""
+    features = learned.count("n_features_in")
+    estimator.n_features_in_ = features
+    estimator.centers_ = learned.array("centers", (None, features))
+    estimator.width_ = learned.number("width", positive=True)
+    count = len(estimator.centers_)
+    if isinstance(learned.values.get("bias"), list):
+        estimator.bias_ = learned.array("bias", (None,))
+        estimator.weights_ = learned.array("weights", (count, len(estimator.bias_)))
+    else:
+        estimator.bias_ = learned.number("bias")
+        estimator.weights_ = learned.array("weights", (count,))
