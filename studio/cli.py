@@ -49,6 +49,7 @@ class Serve:
 
         folder = self.recordings or recordings_folder()
         serve_studio(self.host, self.port, folder, self.browser)
+        return 0
 
 
 @dataclass(frozen=True)
@@ -89,8 +90,9 @@ class Demo:
         from studio.live import serve_until_interrupted, shown_demo  # noqa: PLC0415 - as above
 
         with shown_demo(self.port, setup, self.demonstrations):
-            self._run_experiment(setup)
+            status = self._run_experiment(setup)
             serve_until_interrupted()
+        return status
 
     def _run_experiment(self, setup: Setup) -> int:
         takes = [demonstrate(self.seed, take) for take in range(1, self.demonstrations + 1)]
@@ -165,7 +167,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if not given or (given[0] not in COMMANDS and given[0] not in ("-h", "--help")):
         given.insert(0, "serve")
     command: Serve | Demo | Teach | Inspect = tyro.cli(
-        Command,  # type: ignore[arg-type]
+        Command,
         prog="studio",
         description=studio.__doc__,
         args=given,

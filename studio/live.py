@@ -8,7 +8,6 @@ import webbrowser
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NoReturn
 
 from studio.engine import commands
 from studio.engine.clock import LiveLoop
@@ -20,7 +19,7 @@ from studio.engine.snapshot import Mode, Snapshot
 from studio.panels.app import App
 
 
-def serve_studio(host: str, port: int, recordings: Path, browser: bool) -> NoReturn:
+def serve_studio(host: str, port: int, recordings: Path, browser: bool) -> None:
     """Serve the studio with the samples loaded until interrupted."""
     with LiveLoop(lambda: Session(recordings)) as loop, App(loop, host, port) as app:
         for sample in sorted(samples_folder().glob("*.mcap")):
@@ -29,10 +28,13 @@ def serve_studio(host: str, port: int, recordings: Path, browser: bool) -> NoRet
         serve_until_interrupted()
 
 
-def serve_until_interrupted() -> NoReturn:
-    """Wait for Ctrl-C while the other threads serve."""
-    while True:
-        time.sleep(3600.0)
+def serve_until_interrupted() -> None:
+    """Wait for Ctrl-C, which is how a server ends, while the other threads serve."""
+    try:
+        while True:
+            time.sleep(3600.0)
+    except KeyboardInterrupt:
+        _say("closing")
 
 
 @contextmanager

@@ -15,11 +15,13 @@ class LiveLoop:
     """Ticks a session at 30 Hz on a thread of its own, which alone builds and owns it.
 
     Drift-free: each tick is due one period after the last one was *due*. ``skipped`` counts the
-    ticks that were given up because the machine was badly late. A context manager.
+    ticks that were given up because the machine was badly late. ``speed`` makes the session's time
+    pass faster than the clock's. A context manager.
     """
 
-    def __init__(self, build: Callable[[], Session]) -> None:
+    def __init__(self, build: Callable[[], Session], speed: float = 1.0) -> None:
         self.skipped = 0
+        self._period = CONTROL_PERIOD / speed  # [s] of the clock
         self._build = build
         self._built: Session | None = None
         self._failure: BaseException | None = None
@@ -68,9 +70,9 @@ class LiveLoop:
         due = time.monotonic()
         while not self._stopping.wait(max(0.0, due - time.monotonic())):
             session.tick()
-            due += CONTROL_PERIOD
+            due += self._period
             late = time.monotonic() - due
             if late > BADLY_LATE:
-                missed = int(late / CONTROL_PERIOD)
+                missed = int(late / self._period)
                 self.skipped += missed
-                due += missed * CONTROL_PERIOD
+                due += missed * self._period

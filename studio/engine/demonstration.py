@@ -67,7 +67,7 @@ def demonstrations_of(recording: Recording, name: str) -> list[Demonstration]:
     """Return a demonstration for every armed stretch of at least `SHORTEST` seconds."""
     info = recording.info
     columns = [DRIVEN_JOINTS.index(joint) for joint in LEARNED_JOINTS[info.mapping]]
-    found = []
+    found: list[Demonstration] = []
     for first, last in armed_stretches(recording):
         stretch = recording.samples[first : last + 1]
         times = np.array([sample.time for sample in stretch])

@@ -1,12 +1,13 @@
 """The whole paper in one go: streams or recordings in, a robot that does it alone, and numbers."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
 from studio.engine.demonstration import (
+    SHORTEST,
     Demonstration,
     DemonstrationSet,
     Interpolation,
@@ -56,6 +57,7 @@ class FileOutcome:
     armed_frames: int
     held: dict[str, int]  # why the robot did not follow -> frames
     limited_frames: int  # in which a position or velocity limit bit
+    has_hand_states: bool = True
     warning: str = ""
 
 
@@ -139,10 +141,9 @@ def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, F
     recording = follow(
         stream, Pipeline.for_robot(load_robot(), setup.side, setup.mapping, setup.gate)
     )
-    outcome = _outcome(
-        str(stream.path), stream.format, ticks_of(stream.frame_times).tolist(), recording
-    )
-    return recording, outcome
+    ticks = ticks_of(stream.frame_times).tolist()
+    outcome = _outcome(stream.path, stream.format, ticks, recording)
+    return recording, replace(outcome, has_hand_states=stream.has_hand_states)
 
 
 def _outcome(path: str, name: str, ticks: Sequence[int], recording: Recording) -> FileOutcome:
@@ -172,7 +173,10 @@ def _outcome(path: str, name: str, ticks: Sequence[int], recording: Recording) -
 def _why_nothing(files: Sequence[FileOutcome]) -> str:
     reasons = []
     for file in files:
-        longest = max(file.held.items(), key=itemgetter(1), default=("no frames", 0))
-        why = f"armed for {file.armed_frames} frames only" if file.armed else longest[0]
+        why, _ = max(file.held.items(), key=itemgetter(1), default=("no frames", 0))
+        if file.armed:
+            why = f"no armed stretch of {SHORTEST:g} s or more, {file.armed_frames} frames in all"
+        elif not file.has_hand_states:
+            why = "tells no hand states, so the gate cannot open; open it yourself by --gate open"
         reasons.append(f"{file.path}: {why}")
     return "nothing was taught: " + "; ".join(reasons)

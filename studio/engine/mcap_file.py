@@ -51,7 +51,7 @@ class RecordingWriter:
         self.samples = 0
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            self._file = path.open("xb", buffering=0)
+            self._file = path.open("xb")
         except OSError as error:
             raise FileError(f"{path}: cannot write a recording here: {error.strerror}") from error
         self._writer = Writer(self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
@@ -83,13 +83,14 @@ class RecordingWriter:
         for topic, message in messages_of(sample):
             data = json.dumps(message, allow_nan=False, separators=(",", ":")).encode()
             self._writer.add_message(self._channels[topic], stamp, data, stamp, self.samples)
+        self._file.flush()  # hands whole chunks to the system, which outlives this process
         self.samples += 1
 
     def close(self) -> None:
         """Finish the file with its index; without samples, remove it."""
         if self._file.closed:
             return
-        self._writer.finish()
+        self._writer.finish()  # type: ignore[no-untyped-call]
         self._file.close()
         if not self.samples:
             self.path.unlink()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +16,7 @@ from studio.engine.errors import StudioError
 from studio.engine.kinematics import Kinematics
 from studio.engine.resources import resource_root
 from studio.engine.skeleton import SIDES, FloatArray, Side
-from studio.engine.urdf import Color, Link, Mesh, PlacedShape, Shape, read_urdf
+from studio.engine.urdf import Color, Link, Mesh, PlacedShape, Shape, parse_xml, read_urdf
 
 ARM_JOINTS = ("s0", "s1", "e0", "e1", "w0", "w1", "w2")  # from the shoulder to the hand
 JOINT_NAMES: tuple[str, ...] = (
@@ -113,6 +114,21 @@ def urdf_path() -> Path:
     return resource_root() / "urdf" / "baxter.urdf"
 
 
+def urdf_without_visuals() -> bytes:
+    """Return the robot's description without its looks, for programs that need only the rest.
+
+    Raises
+    ------
+    FileError
+        Where the file cannot be used.
+    """
+    tree = parse_xml(urdf_path())
+    for link in tree.findall("link"):
+        for visual in link.findall("visual"):
+            link.remove(visual)
+    return ElementTree.tostring(tree)
+
+
 @cache
 def load_robot() -> Robot:
     """Return Baxter, read once from `urdf_path`; raise FileError where that file is broken."""
@@ -144,7 +160,7 @@ def description_folder() -> Path | None:
 
 
 def _visuals(link: Link) -> Iterator[Visual]:
-    """Yield what to draw of a link: its visuals, or its collision shapes where a mesh is missing."""
+    """Yield a link's visuals, or its collision shapes where a mesh is missing."""
     resolved = [_resolved(placed) for placed in link.visuals]
     found = [placed for placed in resolved if placed is not None]
     if len(found) < len(resolved):

@@ -67,7 +67,7 @@ def default_desk() -> Desk:
 
 @cache
 def default_blocks() -> tuple[Block, ...]:
-    """Return the block of urdf/block.urdf standing in its place, and two that lie out of the way."""
+    """Return the block of urdf/block.urdf in its place, and two that lie out of the way."""
     size, mass, friction = _box("block")
     lying = Block((0.12, 0.06, 0.05), (0.60, 0.50, 0.745), 0.2, friction)
     cube = Block((0.06, 0.06, 0.06), (0.95, 0.48, 0.75), 0.12, friction)

@@ -5,15 +5,17 @@ It reads no clock: `tick` is one control period, whoever calls it and however fa
 """
 
 import queue
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from studio.engine import commands
 from studio.engine.activity import Activity, Follow, Hold, Perform, next_recording_path
 from studio.engine.commands import Command
 from studio.engine.demonstration import DemonstrationSet, demonstrations_of
-from studio.engine.errors import NothingTaughtError, StudioError
+from studio.engine.errors import FileError, NothingTaughtError, StudioError
 from studio.engine.gate import GateMode
 from studio.engine.mcap_file import is_mcap, read_recording
 from studio.engine.measures import deviation
@@ -59,8 +61,9 @@ class Session:
                 command = self._inbox.get_nowait()
             except queue.Empty:
                 break
-            self._guard(lambda command=command: self._take_command(command))
-        self._guard(self._step)
+            self._attempt(partial(self._take_command, command))
+        if not self._attempt(self._step):
+            self._hold()
         self.snapshot = self._draw()
         return self.snapshot
 
@@ -69,13 +72,14 @@ class Session:
         self._activity.close()
         self._activity.world.close()
 
-    def _guard(self, work: Callable[[], None]) -> None:
+    def _attempt(self, work: Callable[[], None]) -> bool:
         """Do some work; an error in a file or a request becomes a message, the session lives."""
         try:
             work()
         except (StudioError, OSError) as error:
             self._say(str(error), is_error=True)
-            self._hold()
+            return False
+        return True
 
     def _step(self) -> None:
         if not self._activity.step():
@@ -115,10 +119,13 @@ class Session:
         self._say(f"Source: {self._stream.path}, {stream.frames} frames{hands}")
 
     def _use_file(self, command: commands.UseFile) -> None:
-        if is_mcap(command.path):
-            self._add(read_recording(command.path), command.shown)
-        else:
-            self._use(read_skeletons(command.path), command.shown)
+        try:
+            if is_mcap(command.path):
+                self._add(read_recording(command.path), command.shown)
+            else:
+                self._use(read_skeletons(command.path), command.shown)
+        except FileError as error:  # names the copy; the user knows the file by its own name
+            raise FileError(str(error).replace(str(command.path), command.shown)) from error
 
     def _configure(self, side: Side, mapping: Mapping, gate: GateMode) -> None:
         if isinstance(self._activity, Follow):
@@ -127,33 +134,36 @@ class Session:
         self._side, self._mapping, self._gate = side, mapping, gate
         if moved:
             self._lesson = self._reproduction = None
-            self._begin(Hold(start_world(side, mapping)))
+            self._begin(lambda: Hold(start_world(side, mapping)))
 
     def _follow(self, path: Path | None) -> None:
-        if self._stream is None:
+        stream = self._stream
+        if stream is None:
             raise StudioError(
-                "Choose a source first: a sample, a file of yours or the demonstrator"
+                "Choose a source first: a sample, a file of your own, the demonstrator"
             )
         pipeline = Pipeline.for_robot(load_robot(), self._side, self._mapping, self._gate)
-        self._begin(Follow(self._stream, pipeline, path))
+        self._begin(lambda: Follow(stream, pipeline, path))
         self._say("Recording." if path else "Watching, not recording.")
 
     def _play_reproduction(self) -> None:
-        if self._lesson is None:
+        lesson = self._lesson
+        if lesson is None:
             raise StudioError("Train first: there is nothing learned to play")
         ghost = self._entries[self._chosen].demonstration if self._entries else None
         self._reproduction = None
-        self._begin(Perform.lesson_alone(self._lesson, ghost))
+        self._begin(lambda: Perform.lesson_alone(lesson, ghost))
         self._say("Baxter does it alone.")
 
     def _play_demonstration(self) -> None:
         shown = self._entries[self._known(self._chosen)].demonstration
-        self._begin(Perform.replay(shown))
+        self._begin(lambda: Perform.replay(shown))
         self._say(f"Replaying {shown.name}.")
 
-    def _begin(self, activity: Activity) -> None:
+    def _begin(self, build: Callable[[], Activity]) -> None:
         """End what goes on, and go on with something in another world."""
         self._finish(stopped=True)
+        activity = build()
         self._activity.world.close()
         self._activity = activity
 
@@ -194,13 +204,11 @@ class Session:
         self._entries += [Entry(each, down) for each in found]
         if found and self._chosen < 0:
             self._chosen = 0
-        if not found:
-            last = recording.samples[-1]
-            raise NothingTaughtError(
-                f"{name}: no demonstration in it, nothing armed for a second or more"
-                f"{f' ({last.gate.detail})' if last.gate.detail else ''}"
-            )
-        self._say(recording.warning or f"Added {', '.join(each.name for each in found)}.")
+        if found:
+            self._say(recording.warning or f"Added {', '.join(each.name for each in found)}.")
+        else:
+            ((why, _),) = Counter(sample.held for sample in recording.samples).most_common(1)
+            self._say(f"{name}: nothing armed for a second or more: {why}", is_error=True)
 
     def _remove(self, index: int) -> None:
         removed = self._entries.pop(self._known(index)).demonstration
@@ -231,7 +239,6 @@ class Session:
         now = self._activity
         following = now if isinstance(now, Follow) else None
         newest = following.samples[-1] if following and following.samples else None
-        stream = self._stream
         return Snapshot(
             mode=_mode(now),
             message=self._message,
@@ -240,11 +247,11 @@ class Session:
             side=self._side,
             mapping=self._mapping,
             gate_mode=self._gate,
-            source=stream
-            and SourceStatus(stream.path, stream.frames, stream.seconds, stream.has_hand_states),
+            source=None if self._stream is None else SourceStatus.of(self._stream),
             skeleton=following.skeleton if following else None,
             gate=newest.gate if newest else None,
             held=newest.held if newest else "",
+            alone=isinstance(now, Perform) and now.lesson is not None,
             world=now.world.state,
             entries=tuple(self._entries),
             chosen=self._chosen,

@@ -9,47 +9,59 @@ import sys
 import tempfile
 import threading
 from collections.abc import Iterator
-from typing import IO, cast
 
-_STDOUT = 1
+STDOUT, STDERR = 1, 2
+_NAMES = {STDOUT: "stdout", STDERR: "stderr"}
 _lock = threading.RLock()
 _logger = logging.getLogger(__name__)
 
 
 @contextlib.contextmanager
-def silenced_stdout() -> Iterator[None]:
-    """Send what C code writes to descriptor 1 to the debug log instead.
+def silenced(descriptor: int) -> Iterator[None]:
+    """Send what C code writes to descriptor 1 or 2 to the debug log instead.
 
     What Python prints meanwhile, in this thread or another one, goes where it always went.
     """
     with _lock, contextlib.ExitStack() as stack, tempfile.TemporaryFile() as sink:
         _flush()
-        kept = os.dup(_STDOUT)
+        kept = os.dup(descriptor)
         stack.callback(os.close, kept)
-        if _prints_to_stdout():
-            copy = stack.enter_context(open(os.dup(kept), "w", buffering=1, encoding="utf-8"))
-            stack.enter_context(contextlib.redirect_stdout(copy))
-        os.dup2(sink.fileno(), _STDOUT)
+        stack.enter_context(_python_printing_to(kept, descriptor))
+        os.dup2(sink.fileno(), descriptor)
         try:
             yield
         finally:
             _flush()
-            os.dup2(kept, _STDOUT)
+            os.dup2(kept, descriptor)
             sink.seek(0)
-            if said := sink.read().decode(errors="replace").strip():
-                _logger.debug("%s", said)
+            said = sink.read().decode(errors="replace").strip()
+    if said:
+        _logger.debug("%s", said)
 
 
-def _prints_to_stdout() -> bool:
-    """Tell whether Python's standard output is descriptor 1, not a notebook's or a test's."""
+@contextlib.contextmanager
+def _python_printing_to(kept: int, descriptor: int) -> Iterator[None]:
+    """Let Python's stream, if it is the descriptor's and not a notebook's, write to ``kept``."""
+    name = _NAMES[descriptor]
+    stream = getattr(sys, name)
     try:
-        return sys.stdout.fileno() == _STDOUT
+        belongs = stream.fileno() == descriptor
     except (AttributeError, io.UnsupportedOperation, ValueError):
-        return False
+        belongs = False
+    if not belongs:
+        yield
+        return
+    with open(os.dup(kept), "w", buffering=1, encoding=stream.encoding) as copy:
+        setattr(sys, name, copy)
+        try:
+            yield
+        finally:
+            setattr(sys, name, stream)
 
 
 def _flush() -> None:
     """Empty Python's and C's buffers: C keeps its own until exit if its output is a pipe."""
-    if sys.stdout is not None:
-        cast(IO[str], sys.stdout).flush()
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
     ctypes.CDLL(None).fflush(None)

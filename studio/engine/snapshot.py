@@ -7,6 +7,7 @@ from studio.engine.demonstration import Demonstration
 from studio.engine.gate import GateMode, GateStatus
 from studio.engine.retarget import Mapping
 from studio.engine.skeleton import FloatArray, Side, Skeleton
+from studio.engine.sources import SkeletonRecording
 from studio.engine.teaching import Lesson, Reproduction
 from studio.engine.world import WorldState
 
@@ -29,6 +30,11 @@ class SourceStatus:
     frames: int
     seconds: float
     has_hand_states: bool
+
+    @classmethod
+    def of(cls, stream: SkeletonRecording) -> "SourceStatus":
+        """Return what people should know of a stream."""
+        return cls(stream.path, stream.frames, stream.seconds, stream.has_hand_states)
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +69,7 @@ class Snapshot:
     skeleton: Skeleton | None  # the newest one
     gate: GateStatus | None  # None while nobody is watched
     held: str  # why the robot does not follow
+    alone: bool  # it plays what it learned, not a demonstration
     world: WorldState
     entries: tuple[Entry, ...]
     chosen: int  # index of the ghost's demonstration; -1 for none

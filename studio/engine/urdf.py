@@ -6,7 +6,6 @@ tests compare with yourdfpy, which reads all of URDF, but takes 0.7 s to import.
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NoReturn
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
@@ -101,14 +100,22 @@ def read_urdf(path: Path) -> Urdf:
     FileError
         Where the file is missing, is not XML, or holds something that is not read here.
     """
+    root = parse_xml(path)
     try:
-        root = ElementTree.parse(path).getroot()
         colors = {m.attrib["name"]: _color(m) for m in root.findall("material")}
         links = tuple(_link(element, colors) for element in root.findall("link"))
         joints = tuple(_joint(element) for element in root.findall("joint"))
-    except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
+    except (KeyError, ValueError) as error:
         raise FileError(f"{path}: not a URDF file of the studio's ({error}); reinstall") from error
     return Urdf(links, joints)
+
+
+def parse_xml(path: Path) -> Element:
+    """Return the root element of an XML file; raise FileError where there is none."""
+    try:
+        return ElementTree.parse(path).getroot()
+    except (OSError, ElementTree.ParseError) as error:
+        raise FileError(f"{path}: cannot be read as XML ({error}); reinstall") from error
 
 
 def transform(xyz: FloatArray, rpy: FloatArray) -> FloatArray:
@@ -155,14 +162,13 @@ def _shape(element: Element) -> Shape:
             return Sphere(float(shape.attrib["radius"]))
         case "mesh":
             return Mesh(shape.attrib["filename"])
-        case other:
-            _refuse(f"the shape <{other}>")
+    raise ValueError(f"the unknown shape <{shape.tag}>")
 
 
 def _joint(element: Element) -> UrdfJoint:
     kind = element.attrib["type"]
     if kind not in ("revolute", "fixed"):
-        _refuse(f"a {kind} joint")
+        raise ValueError(f"a {kind} joint, not a revolute or fixed one")
     limit, axis = element.find("limit"), element.find("axis")
     limits = {} if limit is None else limit.attrib
     lower, upper, velocity, effort = (
@@ -182,7 +188,7 @@ def _joint(element: Element) -> UrdfJoint:
 def _named(element: Element, tag: str) -> str:
     found = element.find(tag)
     if found is None:
-        _refuse(f"a joint without <{tag}>")
+        raise ValueError(f"a joint without <{tag}>")
     return found.attrib["link"]
 
 
@@ -195,14 +201,10 @@ def _origin(element: Element) -> FloatArray:
 def _color(element: Element) -> Color:
     color = element.find("color")
     if color is None:
-        _refuse("a material without <color>")
+        raise ValueError("a material without <color>")
     red, green, blue, alpha = _numbers(color.attrib["rgba"]).tolist()
     return (red, green, blue, alpha)
 
 
 def _numbers(text: str) -> FloatArray:
     return np.array([float(word) for word in text.split()])
-
-
-def _refuse(what: str) -> NoReturn:
-    raise ValueError(f"it holds {what}")

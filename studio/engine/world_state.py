@@ -24,13 +24,35 @@ class WorldState:
     block_down: bool  # touched, leaning more than DOWN_TILT, and at rest
 
 
+@dataclass(frozen=True)
+class BlockWatch:
+    """What is known of the task's block: the memory from tick to tick."""
+
+    touched: bool = False
+    tilt: float = 0.0  # [rad]
+    slow_ticks: int = 0  # since it last moved
+
+    def step(self, touched: bool, pose: FloatArray, speed: float, spin: float) -> "BlockWatch":
+        """Return what is known after a tick.
+
+        ``touched`` says whether the taught arm touched the block in it; then its pose (7,), speed
+        [m/s] and spin [rad/s] at the end.
+        """
+        slow = speed <= REST_SPEED and spin <= REST_SPIN
+        return BlockWatch(
+            touched=self.touched or touched,
+            tilt=tilt_of(pose),
+            slow_ticks=self.slow_ticks + 1 if slow else 0,
+        )
+
+    @property
+    def down(self) -> bool:
+        """Whether the taught arm touched it, and it leans more than 60° and is at rest."""
+        return self.touched and self.tilt > DOWN_TILT and self.slow_ticks >= REST_TICKS
+
+
 def tilt_of(pose: FloatArray) -> float:
     """Return the angle [rad] between a block's own z axis and the upright, for its pose (7,)."""
     x, y = float(pose[3]), float(pose[4])
-    upright = 1.0 - 2.0 * (x * x + y * y)  # the z component of the rotated z axis
+    upright = 1.0 - 2.0 * (x * x + y * y)  # the z component of the block's own z axis
     return math.acos(min(1.0, max(-1.0, upright)))
-
-
-def is_slow(speed: float, spin: float) -> bool:
-    """Tell whether a block with this speed [m/s] and spin [rad/s] may be at rest."""
-    return speed <= REST_SPEED and spin <= REST_SPIN

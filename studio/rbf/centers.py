@@ -6,13 +6,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
-from studio.rbf.aggregation import DistinctInputs
-from studio.rbf.basis import FloatArray
+from studio.rbf.aggregation import DistinctInputs, IndexArray
+from studio.rbf.basis import FloatArray, extent
 from studio.rbf.validation import as_inputs, one_of
 
 CenterRule = Literal["grid", "kmeans", "random"]
 RandomState = int | np.random.Generator | None
 LLOYD_ROUNDS = 100  # k-means ends long before, unless clusters swap a point forever
+LATTICE_DIGITS = 9  # far above rounding, far below any spacing that matters
 
 
 def place_centers(
@@ -68,12 +69,13 @@ def grid_centers(inputs: FloatArray, count: int) -> FloatArray:
 
 def _farthest_points(inputs: FloatArray, count: int) -> FloatArray:
     """Return inputs chosen by maximin; beyond all of them it begins again from the first."""
-    middle = inputs.mean(axis=0, keepdims=True)
-    chosen = [int(cdist(middle, inputs).argmin())]
-    distances = cdist(inputs[chosen], inputs)[0]
-    while len(chosen) < min(count, len(inputs)):
+    points = _on_lattice(inputs)
+    middle = np.round(points.mean(axis=0, keepdims=True), LATTICE_DIGITS)
+    chosen = [int(cdist(middle, points).argmin())]
+    distances = cdist(points[chosen], points)[0]
+    while len(chosen) < min(count, len(points)):
         chosen.append(int(distances.argmax()))
-        distances = np.minimum(distances, cdist(inputs[chosen[-1:]], inputs)[0])
+        distances = np.minimum(distances, cdist(points[chosen[-1:]], points)[0])
     centers: FloatArray = inputs[np.resize(chosen, count)]
     return centers
 
@@ -97,30 +99,51 @@ def kmeans_centers(data: DistinctInputs, count: int, generator: np.random.Genera
     """
     if count >= len(data.inputs):
         return random_centers(data.inputs, count, generator)
-    centers = _spread_start(data, count, generator)
+    points = _on_lattice(data.inputs)
+    start = _spread_start(points, data.counts, count, generator)
+    centers, own = points[start], data.inputs[start]  # on the lattice, and where they truly are
     for _ in range(LLOYD_ROUNDS):
-        nearest = cdist(data.inputs, centers).argmin(axis=1)
-        weight = np.bincount(nearest, weights=data.counts, minlength=count)
-        sums = [
-            np.bincount(nearest, weights=data.counts * column, minlength=count)
-            for column in data.inputs.T
-        ]
-        held = weight > 0.0  # an emptied cluster keeps its center
-        moved = centers.copy()
-        moved[held] = np.stack(sums, axis=1)[held] / weight[held, np.newaxis]
+        nearest = cdist(points, centers).argmin(axis=1)
+        moved = _cluster_means(points, data.counts, nearest, centers)
+        own = _cluster_means(data.inputs, data.counts, nearest, own)
         if np.array_equal(moved, centers):
             break
         centers = moved
-    return centers
+    return own
 
 
-def _spread_start(data: DistinctInputs, count: int, generator: np.random.Generator) -> FloatArray:
-    """Draw distinct inputs, each with a chance that grows as its squared distance to the others."""
-    chosen = [int(generator.choice(len(data.inputs), p=data.counts / data.counts.sum()))]
-    nearest = cdist(data.inputs[chosen], data.inputs)[0]
+def _spread_start(
+    points: FloatArray, counts: FloatArray, count: int, generator: np.random.Generator
+) -> list[int]:
+    """Draw points (n, d), each with a chance that grows as its squared distance to the others."""
+    chosen = [int(generator.choice(len(points), p=counts / counts.sum()))]
+    nearest = cdist(points[chosen], points, "sqeuclidean")[0]
     while len(chosen) < count:
-        # Relative to the largest before squaring, for lengths whose squares would vanish.
-        chance = data.counts * np.square(nearest / nearest.max())
-        chosen.append(int(generator.choice(len(data.inputs), p=chance / chance.sum())))
-        nearest = np.minimum(nearest, cdist(data.inputs[chosen[-1:]], data.inputs)[0])
-    return data.inputs[chosen]
+        chance = counts * nearest if nearest.any() else counts  # all on one spot: any will do
+        chosen.append(int(generator.choice(len(points), p=chance / chance.sum())))
+        nearest = np.minimum(nearest, cdist(points[chosen[-1:]], points, "sqeuclidean")[0])
+    return chosen
+
+
+def _cluster_means(
+    points: FloatArray, counts: FloatArray, nearest: IndexArray, centers: FloatArray
+) -> FloatArray:
+    """Return the mean of the points nearest to each center; an emptied one stays where it is."""
+    weight = np.bincount(nearest, weights=counts, minlength=len(centers))
+    held = weight > 0.0
+    moved = centers.copy()
+    for column, values in enumerate(points.T):
+        sums = np.bincount(nearest, weights=counts * values, minlength=len(centers))
+        moved[held, column] = sums[held] / weight[held]
+    return moved
+
+
+def _on_lattice(inputs: FloatArray) -> FloatArray:
+    """Return inputs (n, d) relative to their extent, rounded.
+
+    Even stamps tie all the time. Rounding makes a tie a tie in every unit, so that choices by
+    distance never depend on it.
+    """
+    relative = (inputs - inputs.min(axis=0)) / (extent(inputs) or 1.0)
+    points: FloatArray = np.round(relative, LATTICE_DIGITS)
+    return points

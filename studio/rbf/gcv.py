@@ -7,7 +7,7 @@ shape, and counting them lets ripple through.
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,7 +20,8 @@ RIDGE_CANDIDATES = 45  # four a decade of sqrt(ridge) / largest singular value
 LARGEST_RIDGE = 10.0  # in that same measure: the fit is then all but flat
 
 
-class Choice(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Choice:
     """One width and ridge with the decomposition that they were judged by."""
 
     width: float

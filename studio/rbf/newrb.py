@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any, Literal, NamedTuple, Self, get_args
+from typing import Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,7 +29,8 @@ LARGEST_ROOT = 1e150  # its square is still a number
 StopReason = Literal["goal", "max_neurons", "exhausted"]
 
 
-class GrowthStep(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class GrowthStep:
     """The network after one more neuron."""
 
     neurons: int
@@ -160,7 +161,8 @@ class NewrbRegressor:
         return regressor_tags()
 
 
-class _Growth(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class _Growth:
     chosen: list[int]
     bias: FloatArray  # (k,)
     weights: FloatArray  # (m, k)

@@ -1,7 +1,7 @@
 """How good a fit is, and how good any fit could be."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,7 +10,8 @@ from studio.rbf.basis import FloatArray
 from studio.rbf.validation import finite_array
 
 
-class Floor(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Floor:
     """The error that no function of time can undercut, or why there is none."""
 
     value: FloatArray | None  # (D,)

@@ -10,6 +10,8 @@ from studio.rbf.basis import FloatArray
 from studio.rbf.newrb import GrowthStep, NewrbRegressor, StopReason
 from studio.rbf.regressor import RBFRegressor
 
+MOST_FEATURES = 1_000_000  # far beyond any motion; a larger number is a mangled one
+
 
 class Table:
     """A JSON object, and where it stands, so that a fault can name its place.
@@ -30,7 +32,8 @@ class Table:
 
     def expect(self, key: str, value: object) -> None:
         """Return if the value is this one."""
-        if key not in self.values or self.values[key] != value:
+        found = self.values.get(key)
+        if type(found) is not type(value) or found != value:  # to Python, true is 1
             raise self.fault(key, repr(value))
 
     def table(self, key: str) -> "Table":
@@ -46,11 +49,11 @@ class Table:
             raise self.fault(key, "text")
         return value
 
-    def count(self, key: str) -> int:
-        """Return a whole number from zero up."""
+    def count(self, key: str, most: int) -> int:
+        """Return a whole number from zero up to a limit."""
         value = self.values.get(key)
-        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-            raise self.fault(key, "a whole number from 0 up")
+        if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= most:
+            raise self.fault(key, f"a whole number from 0 to {most}")
         return value
 
     def number(self, key: str, *, positive: bool = False) -> float:
@@ -105,7 +108,7 @@ def rbf_from(settings: Table, learned: Table) -> RBFRegressor:
         estimator.centers = np.asarray(estimator.centers, dtype=np.float64)
     _read_network(learned, estimator)
     estimator.ridge_ = learned.number("ridge")
-    estimator.rank_ = learned.count("rank")
+    estimator.rank_ = learned.count("rank", len(estimator.centers_))
     infinite = learned.values.get("condition", 0) is None  # JSON has no infinity
     estimator.condition_ = math.inf if infinite else learned.number("condition")
     estimator.effective_dof_ = learned.number("effective_dof")
@@ -117,11 +120,12 @@ def newrb_from(settings: Table, learned: Table) -> NewrbRegressor:
     estimator = NewrbRegressor(**_settings(settings, NewrbRegressor))
     _read_network(learned, estimator)
     outputs = estimator.weights_.reshape(len(estimator.centers_), -1).shape[1]
+    count = len(estimator.centers_)
     steps = learned.values.get("history")
-    if not isinstance(steps, list):
-        raise learned.fault("history", "a list")
+    if not isinstance(steps, list) or len(steps) != count:
+        raise learned.fault("history", f"a list of {count}, one a neuron")
     estimator.history_ = tuple(
-        _step(Table(step, f"{learned.place}: history[{place}]"), outputs)
+        _step(Table(step, f"{learned.place}: history[{place}]"), place + 1, outputs)
         for place, step in enumerate(steps)
     )
     reason = learned.text("stop_reason")
@@ -133,13 +137,14 @@ def newrb_from(settings: Table, learned: Table) -> NewrbRegressor:
     return estimator
 
 
-def _step(step: Table, outputs: int) -> GrowthStep:
+def _step(step: Table, neurons: int, outputs: int) -> GrowthStep:
     has_ratio = step.values.get("floor_ratio", 0) is not None
+    step.expect("neurons", neurons)
     return GrowthStep(
-        neurons=step.count("neurons"),
+        neurons=neurons,
         mse=step.array("mse", (outputs,)),
         floor_ratio=step.number("floor_ratio") if has_ratio else None,
-        distinct_centers=step.count("distinct_centers"),
+        distinct_centers=step.count("distinct_centers", neurons),
     )
 
 
@@ -157,7 +162,7 @@ def _settings(
 
 def _read_network(learned: Table, estimator: RBFRegressor | NewrbRegressor) -> None:
     """Read what `predict` needs."""
-    features = learned.count("n_features_in")
+    features = learned.count("n_features_in", MOST_FEATURES)
     estimator.n_features_in_ = features
     estimator.centers_ = learned.array("centers", (None, features))
     estimator.width_ = learned.number("width", positive=True)

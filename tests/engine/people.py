@@ -17,7 +17,7 @@ def person(
     yaw: float = 0.0,
     body_id: str = "0",
 ) -> Skeleton:
-    """Return someone 2 m away whose upper arm and forearm point along ``arm``, in the torso's frame."""
+    """Return someone 2 m away whose arm's two bones point along ``arm``, in the torso's frame."""
     torso = np.zeros((25, 3))  # x forward, y left, z up
     torso[Joint.SPINE_SHOULDER] = (0.0, 0.0, 0.5)
     for name, y in (("left", 1.0), ("right", -1.0)):

@@ -14,7 +14,9 @@ UNKNOWN, NOT_TRACKED = HandState.UNKNOWN, HandState.NOT_TRACKED
 LONG = 12  # frames; believed after 10, that is 0.3 s
 
 
-def run(states: Sequence[HandState], rate: float = 30.0, gate: Gate | None = None) -> list[GateStatus]:
+def run(
+    states: Sequence[HandState], rate: float = 30.0, gate: Gate | None = None
+) -> list[GateStatus]:
     """Return the status after every frame."""
     gate, memory, found = gate or Gate(), None, []
     for i, state in enumerate(states):
@@ -37,15 +39,16 @@ def test_arms_when_closed_has_been_seen_for_its_time() -> None:
 def test_time_decides_and_not_frames(rate: int) -> None:
     """The end of a real recording, at three frame rates: armed at the same moment, once."""
     at_30 = held(
-        (LASSO, 35), (UNKNOWN, 2), (CLOSED, 7), (UNKNOWN, 2), (NOT_TRACKED, 14), (OPEN, 19), (CLOSED, 33)
-    )  # fmt: skip
+        *((LASSO, 35), (UNKNOWN, 2), (CLOSED, 7), (UNKNOWN, 2)),
+        *((NOT_TRACKED, 14), (OPEN, 19), (CLOSED, 33)),
+    )
     states = [at_30[int(i * 30 / rate)] for i in range(int(len(at_30) * rate / 30))]
     armed = [i for i, status in enumerate(run(states, rate)) if status.armed]
     assert armed == list(range(armed[0], len(states)))
     assert armed[0] / rate == pytest.approx(88 / 30, abs=0.1)
 
 
-@pytest.mark.parametrize("order", [o for o in product((LASSO, OPEN, CLOSED), repeat=3)])
+@pytest.mark.parametrize("order", list(product((LASSO, OPEN, CLOSED), repeat=3)))
 def test_only_the_one_order_arms(order: tuple[HandState, ...]) -> None:
     armed = first_armed(held(*((state, LONG) for state in order)))
     assert (armed is not None) == (order == (LASSO, OPEN, CLOSED))
@@ -60,7 +63,9 @@ def test_a_sign_too_short_is_no_sign(skipped: int) -> None:
 
 
 @pytest.mark.parametrize("unseen", [UNKNOWN, NOT_TRACKED])
-@pytest.mark.parametrize(("gap", "arms"), [(2, True), (12, True), (23, True), (26, False), (60, False)])
+@pytest.mark.parametrize(
+    ("gap", "arms"), [(2, True), (12, True), (23, True), (26, False), (60, False)]
+)
 def test_gaps_are_bridged_for_a_bounded_time(unseen: HandState, gap: int, arms: bool) -> None:
     for where in (1, 2):
         runs = [(LASSO, LONG), (OPEN, LONG), (CLOSED, LONG)]

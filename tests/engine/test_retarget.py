@@ -37,9 +37,7 @@ def bullet(tmp_path_factory):
 
     def directions(side: Side, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         for joint, angle in zip(DRIVEN_JOINTS, angles, strict=True):
-            pybullet.resetJointState(
-                robot, index[f"{side}_{joint}"], angle, physicsClientId=client
-            )
+            pybullet.resetJointState(robot, index[f"{side}_{joint}"], angle, physicsClientId=client)
         shoulder, elbow, wrist = (
             np.array(
                 pybullet.getLinkState(
@@ -81,7 +79,11 @@ def test_paper_mapping_opens_the_elbow_as_the_person_does(side: Side) -> None:
         u, f = unit(rng.normal(size=3)), unit(rng.normal(size=3))
         s0, s1, e0, e1 = arm_angles(u, f, side, "paper")
         mount = 0.7854 if side == "left" else -0.7854
-        axis = [math.cos(s1) * math.cos(s0 + mount), math.cos(s1) * math.sin(s0 + mount), -math.sin(s1)]
+        axis = [
+            math.cos(s1) * math.cos(s0 + mount),
+            math.cos(s1) * math.sin(s0 + mount),
+            -math.sin(s1),
+        ]
         assert e0 == 0.0
         assert np.allclose(axis, u, atol=1e-9)  # s0 and s1 turn the arm's axis to the upper arm
         assert e1 == pytest.approx(math.acos(np.clip(u @ f, -1, 1)), abs=1e-6)
@@ -102,7 +104,12 @@ def test_mirrored_person_gives_the_mirrored_arm(u, f, mapping) -> None:
 
 
 @laws
-@given(u=DIRECTIONS, f=DIRECTIONS, side=st.sampled_from(SIDES), mapping=st.sampled_from(["exact", "paper"]))
+@given(
+    u=DIRECTIONS,
+    f=DIRECTIONS,
+    side=st.sampled_from(SIDES),
+    mapping=st.sampled_from(["exact", "paper"]),
+)
 def test_any_two_directions_have_finite_angles(u, f, side, mapping) -> None:
     for forearm in (f, u, tuple(-x for x in u)):
         assert np.isfinite(arm_angles(u, forearm, side, mapping)).all()

@@ -80,7 +80,7 @@ def _script(signs: Sequence[HandState]) -> list[Phase]:
         Phase(SWEPT, 0.4, last),
         Phase(READY, 2.2, last),
         Phase(READY, 0.4, last),
-        Phase(READY, 1.0, HandState.LASSO),
+        Phase(READY, 1.6, HandState.LASSO),
         Phase(REST, 1.2, HandState.OPEN),
     ]
 
@@ -109,7 +109,7 @@ def _off(pose: ArmPose, rng: np.random.Generator) -> list[float]:
 
 
 def _poses(phases: Sequence[Phase], times: FloatArray) -> FloatArray:
-    """Return the four angles [rad] at each time (T, 4), moving from pose to pose by minimum jerk."""
+    """Return the four angles [rad] at each time (T, 4), by minimum jerk from pose to pose."""
     ends = np.cumsum([phase.seconds for phase in phases])
     starts = np.concatenate([[0.0], ends[:-1]])
     keys = np.radians(

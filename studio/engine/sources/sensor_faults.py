@@ -44,7 +44,7 @@ _LASSO_FLICKER = 0.4  # [1/s] of two frames of Closed
 def sense(
     positions: FloatArray, left_hand: Sequence[HandState], rng: np.random.Generator
 ) -> tuple[Skeleton, ...]:
-    """Return clean positions (T, 25, 3) [m] at 30 Hz and a left hand's states as a sensor shows them."""
+    """Return clean positions (T, 25, 3) [m] at 30 Hz and hand states as a sensor shows them."""
     noisy = positions + _noise(positions, rng)
     for side in ("left", "right"):
         _spike(noisy, Joint[f"WRIST_{side.upper()}"], rng)
@@ -69,7 +69,8 @@ def _noise(positions: FloatArray, rng: np.random.Generator) -> FloatArray:
     innovation = np.sqrt(1.0 - _CORRELATION**2)
     for i in range(1, len(positions)):
         noise[i] = _CORRELATION * noise[i - 1] + innovation * white[i]
-    return noise * size[..., None]
+    sized: FloatArray = noise * size[..., None]
+    return sized
 
 
 def _spike(positions: FloatArray, joint: Joint, rng: np.random.Generator) -> None:

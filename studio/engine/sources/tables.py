@@ -35,6 +35,7 @@ from studio.engine.sources.family import Family, Frame, ParsedFile, check_time, 
 TRACKED_FROM = 0.5  # of confidence
 STAMPS_A_SECOND = 10_000_000  # units of 100 ns
 _VALUES_A_JOINT = {75: 3, 100: 4, 101: 4, 175: 7}  # by the number of columns
+_MOST_CELLS = 1000  # that are counted; what looks like a table may be one endless line
 _HEADER_LINES = 20  # at most; a longer beginning without numbers is no table
 _NUMBER_CHARACTERS = frozenset(
     "0123456789+-.eEinfatyINFATY"
@@ -86,7 +87,7 @@ def _rows(text: str) -> Iterator[tuple[int, list[str]]]:
         if not content.strip():
             continue
         separator = next((mark for mark in ";," if mark in content), None)  # None: blanks and tabs
-        cells = [cell.strip() for cell in content.strip().split(separator)]
+        cells = [cell.strip() for cell in content.strip().split(separator, _MOST_CELLS)]
         yield line, cells[:-1] if not cells[-1] else cells
 
 
@@ -103,7 +104,9 @@ def _check_width(line: int, cells: list[str], rows: list[list[float]], lines: li
         expected = "75, 100, 101 or 175 columns"
     else:
         return
-    raise StudioError(f"line {line}: expected {expected}, found {len(cells)}")
+    more = "more than " if len(cells) > _MOST_CELLS else ""
+    found = f"{more}{min(len(cells), _MOST_CELLS)}"
+    raise StudioError(f"line {line}: expected {expected}, found {found}")
 
 
 def _number(cell: str, line: int, column: int) -> float:

@@ -1,0 +1,123 @@
+"""The whole paper: taught, learned, reproduced, and measured; and where nothing can be taught."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from studio.engine.demonstration import DemonstrationSet, demonstrations_of
+from studio.engine.errors import FileError, StudioError
+from studio.engine.experiment import Setup, run_experiment
+from studio.engine.follow import follow
+from studio.engine.mcap_file import write_recording
+from studio.engine.performance import perform
+from studio.engine.pipeline import Pipeline
+from studio.engine.report import as_json, as_text
+from studio.engine.robot import load_robot
+from studio.engine.skeleton import HandState
+from studio.engine.sources import write_skeletons
+from studio.engine.sources.demonstrator import demonstrate
+from studio.engine.teaching import LearnerSettings, learn
+
+TAKES = [demonstrate(0, take) for take in (1, 2, 3, 4)]
+
+
+@pytest.fixture(scope="module", params=["exact", "paper"])
+def experiment(request):
+    return run_experiment(TAKES, Setup(mapping=request.param))
+
+
+def test_baxter_pushes_the_block_down_as_it_was_taught(experiment) -> None:
+    assert experiment.reproduction.performance.block_down
+    assert all(replay.performance.block_down for replay in experiment.replays)
+    assert experiment.reproduction.deviation.hand_mean < 0.040
+
+
+def test_the_numbers_keep_their_law(experiment) -> None:
+    """With shared stamps: MSE = floor + error of the mean curve, to rounding."""
+    lesson = experiment.lesson
+    of_mean = np.mean((lesson.taught.mean - lesson.curve) ** 2, axis=0)
+    assert np.allclose(lesson.mse, lesson.floor + of_mean, rtol=1e-9)
+    assert (lesson.mse >= lesson.floor).all()
+
+
+def test_what_is_printed_is_what_was_measured(experiment) -> None:
+    shown = json.loads(json.dumps(as_json(experiment), allow_nan=False))
+    assert shown["samples"] == 142
+    assert len(shown["joints"]) == (4 if shown["mapping"] == "exact" else 3)
+    assert list(shown["mse"]) == list(shown["floor"]) == shown["joints"]
+    assert shown["reproduction"]["hand_error_mm"]["mean"] == pytest.approx(
+        1000 * experiment.reproduction.deviation.hand_mean
+    )
+    for file in shown["files"]:
+        following = sum(last - first + 1 for first, last in file["armed"])
+        assert following == file["armed_frames"]
+        assert file["armed_frames"] + sum(file["held"].values()) == file["frames"]
+    text = as_text(experiment)
+    assert "floor" in text
+    assert "Block down: alone yes" in text
+
+
+def test_the_same_seed_gives_the_same_numbers(experiment) -> None:
+    again = run_experiment([demonstrate(0, take) for take in (1, 2, 3, 4)], experiment.setup)
+    assert as_json(again) == as_json(experiment)
+
+
+def test_a_still_arm_and_the_mean_posture_leave_the_block_standing(experiment) -> None:
+    taught = experiment.lesson.taught
+    start, posture = taught.mean[0], taught.mean.mean(axis=0)
+    for constant in (start, posture):
+        stands = perform(lambda _, q=constant: q, 3.0, taught.side, taught.mapping)
+        assert not stands.block_down
+
+
+def test_one_demonstration_has_no_floor_and_says_why() -> None:
+    alone = as_json(run_experiment(TAKES[:1], Setup()))
+    assert alone["floor"] is None
+    assert "single" in alone["floor_note"]
+
+
+def test_newrb_learns_it_too() -> None:
+    found = run_experiment(TAKES, Setup(learner=LearnerSettings("newrb", 50)))
+    assert found.reproduction.performance.block_down
+    ratio = found.lesson.mse / found.lesson.floor
+    assert (ratio > 1.0).all()
+
+
+def test_files_and_recordings_teach_the_same(tmp_path: Path) -> None:
+    """Two roads: a skeleton file followed now, and the recording of it made then."""
+    write_skeletons(tmp_path / "take.jsonl", TAKES[0])
+    kept = []
+    from_file = run_experiment([tmp_path / "take.jsonl"], Setup(), keep=kept.append)
+    write_recording(tmp_path / "take.mcap", kept[0])
+    from_recording = run_experiment([tmp_path / "take.mcap"], Setup())
+    assert np.array_equal(from_file.lesson.taught.rows, from_recording.lesson.taught.rows)
+    with pytest.raises(FileError, match="--mapping exact"):
+        run_experiment([tmp_path / "take.mcap"], Setup(mapping="paper"))
+
+
+def test_where_nothing_arms_the_files_and_the_reason_are_told() -> None:
+    stays = demonstrate(0, 1, (HandState.OPEN, HandState.CLOSED))
+    found = as_json(run_experiment([stays], Setup()))
+    assert set(found) == {"files", "error"}
+    assert found["files"][0]["armed_frames"] == 0
+    assert "waiting for Lasso" in found["error"]
+    followed = run_experiment([stays], Setup(gate="open"))
+    assert followed.files[0].armed_frames == followed.files[0].frames
+    assert followed.reproduction is not None
+
+
+def test_the_right_arm_mirrors_the_scene() -> None:
+    recording = follow(TAKES[0], Pipeline.for_robot(load_robot(), "right", gate_mode="open"))
+    taught = DemonstrationSet.of(demonstrations_of(recording, "right"))
+    assert learn(taught, LearnerSettings()).taught.side == "right"
+    assert recording.samples[0].world.block_poses[0, 1] < 0.0
+
+
+@pytest.mark.parametrize("neurons", [0, -1, 1001])
+def test_impossible_networks_are_refused(neurons: int) -> None:
+    with pytest.raises(StudioError, match="neurons"):
+        LearnerSettings("rbf", neurons)
+    with pytest.raises(StudioError, match="unknown learner"):
+        LearnerSettings("magic", 5)

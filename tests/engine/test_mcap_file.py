@@ -1,0 +1,179 @@
+"""Recordings: written and read back they are the same, and damage costs only what it touched."""
+
+import io
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mcap.reader import make_reader
+
+from studio.engine import mcap_file
+from studio.engine.errors import FileError
+from studio.engine.follow import follow
+from studio.engine.mcap_file import is_mcap, read_recording, write_recording
+from studio.engine.mcap_messages import CHANNELS
+from studio.engine.pipeline import Pipeline
+from studio.engine.recording import Recording
+from studio.engine.robot import load_robot
+from studio.engine.sources.demonstrator import demonstrate
+
+
+@pytest.fixture(scope="module")
+def recording() -> Recording:
+    full = follow(demonstrate(0, 1), Pipeline.for_robot(load_robot(), "left"))
+    return Recording(full.info, full.samples[100:220])
+
+
+@pytest.fixture(scope="module")
+def content(recording, tmp_path_factory) -> bytes:
+    path = tmp_path_factory.mktemp("whole") / "whole.mcap"
+    write_recording(path, recording)
+    return path.read_bytes()
+
+
+def same(a, b) -> bool:
+    """Compare two values field by field, arrays to the last bit."""
+    if isinstance(a, np.ndarray):
+        return a.dtype == b.dtype and a.tobytes() == b.tobytes()
+    if hasattr(a, "__dataclass_fields__"):
+        return type(a) is type(b) and all(
+            same(getattr(a, name), getattr(b, name)) for name in a.__dataclass_fields__
+        )
+    return a == b
+
+
+def test_write_then_read_is_identity(recording, tmp_path: Path) -> None:
+    path = tmp_path / "new" / "a.mcap"
+    write_recording(path, recording)
+    again = read_recording(path)
+    assert again.info == recording.info
+    assert again.warning == ""
+    assert len(again.samples) == len(recording.samples)
+    for a, b in zip(recording.samples, again.samples, strict=True):
+        assert same(a, b)
+
+
+def test_the_same_recording_gives_the_same_bytes(recording, content, tmp_path: Path) -> None:
+    write_recording(tmp_path / "b.mcap", recording)
+    assert (tmp_path / "b.mcap").read_bytes() == content
+
+
+def test_the_files_own_library_reads_it_with_schemas(content, tmp_path: Path) -> None:
+    (tmp_path / "a.mcap").write_bytes(content)
+    with (tmp_path / "a.mcap").open("rb") as file:
+        summary = make_reader(file).get_summary()
+    assert {channel.topic for channel in summary.channels.values()} == set(CHANNELS)
+    assert {schema.encoding for schema in summary.schemas.values()} == {"jsonschema"}
+
+
+def test_nothing_recorded_is_overwritten(recording, tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    path.write_text("precious")
+    with pytest.raises(FileError, match=r"a\.mcap"):
+        write_recording(path, recording)
+    assert path.read_text() == "precious"
+
+
+def test_a_chunk_holds_a_second_at_most(content) -> None:
+    stamps = [c.message_end_time - c.message_start_time for c in _chunk_indexes(content)]
+    assert max(stamps) < 1e9
+
+
+def test_a_cut_anywhere_keeps_all_whole_chunks(recording, tmp_path: Path, monkeypatch) -> None:
+    """Every byte offset of the second chunk, and some of everywhere."""
+    monkeypatch.setattr(mcap_file, "CHUNK_BYTES", 8192)  # small, so that every offset is quick
+    path = tmp_path / "cut.mcap"
+    write_recording(path, Recording(recording.info, recording.samples[:8]))
+    content = path.read_bytes()
+    chunks = [c.chunk_start_offset for c in _chunk_indexes(content)]
+    offsets = {*range(chunks[1], chunks[2]), *range(0, len(content), 97)}
+    kept_at = []
+    for offset in sorted(offsets):
+        path.write_bytes(content[:offset])
+        read = _read_or_refuse(path)
+        if read is None:
+            assert offset <= chunks[1]
+            continue
+        kept_at.append((offset, len(read.samples)))
+        assert "bytes are cut off or damaged" in read.warning
+        assert same(read.samples[-1], recording.samples[len(read.samples) - 1])
+    counts = [count for _, count in kept_at]
+    assert counts == sorted(counts)
+    assert max(counts) == 8
+
+
+def _read_or_refuse(path: Path) -> Recording | None:
+    """Return what is read, or None where the file is refused by name."""
+    try:
+        return read_recording(path)
+    except FileError as error:
+        if str(path) not in str(error):
+            raise
+        return None
+
+
+def _chunk_indexes(content: bytes):
+    return make_reader(io.BytesIO(content)).get_summary().chunk_indexes
+
+
+def test_flipped_bytes_never_give_a_traceback(recording, content, tmp_path: Path) -> None:
+    rng = np.random.default_rng(8)
+    path = tmp_path / "bent.mcap"
+    for _ in range(150):
+        bent = bytearray(content)
+        for position in rng.integers(0, len(bent), rng.integers(1, 4)):
+            bent[position] ^= int(rng.integers(1, 256))
+        path.write_bytes(bent)
+        read = _read_or_refuse(path)
+        samples = () if read is None else read.samples
+        assert all(same(a, b) for a, b in zip(recording.samples, samples, strict=False))
+
+
+def test_what_is_no_recording_is_refused_by_name(tmp_path: Path) -> None:
+    for name, bad in {"text": b"hello", "empty": b"", "magic": mcap_file.MAGIC}.items():
+        (tmp_path / name).write_bytes(bad)
+        with pytest.raises(FileError, match=name):
+            read_recording(tmp_path / name)
+    assert not is_mcap(tmp_path / "missing")
+    with pytest.raises(FileError, match="missing"):
+        read_recording(tmp_path / "missing")
+
+
+def test_kill_while_recording_loses_a_second_at_most(tmp_path: Path) -> None:
+    """A process that is killed with SIGKILL: what it had recorded is on disk."""
+    program = textwrap.dedent(
+        """
+        import sys
+        from pathlib import Path
+        from studio.engine.commands import Record, UseDemonstrator
+        from studio.engine.session import Session
+        session = Session(Path(sys.argv[1]))
+        session.post(UseDemonstrator())
+        session.post(Record())
+        while True:
+            print(session.tick().recorded, flush=True)
+            if session.snapshot.recorded >= 200:
+                import time
+                time.sleep(60)
+        """
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", program, str(tmp_path)],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+    )
+    recorded = 0
+    while recorded < 200:
+        recorded = int(process.stdout.readline())
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    process.stdout.close()
+    read = read_recording(tmp_path / "demonstration-001.mcap")
+    assert recorded - 30 <= len(read.samples) <= recorded
+    assert "cut off" in read.warning

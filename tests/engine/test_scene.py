@@ -1,0 +1,65 @@
+from dataclasses import replace
+
+import pytest
+
+from studio.engine.errors import StudioError
+from studio.engine.scene import Block, Desk, Scene
+
+BLOCK = Block((0.1, 0.06, 0.3), (0.8, 0.2, 0.87), 0.4, 0.6)
+
+
+def test_blocks_stand_on_the_desk() -> None:
+    scene = Scene()
+    top = scene.desk.position[2] + scene.desk.size[2] / 2
+    assert len(scene.blocks) == 3
+    for block in scene.blocks:
+        assert block.position[2] - block.size[2] / 2 == pytest.approx(top)
+        for axis in (0, 1):
+            reach = abs(block.position[axis] - scene.desk.position[axis]) + block.size[axis] / 2
+            assert reach < scene.desk.size[axis] / 2
+
+
+def test_the_tasks_block_is_the_one_that_stands() -> None:
+    first, *others = Scene().blocks
+    assert first == BLOCK
+    assert all(block.size[2] <= min(block.size[:2]) for block in others)
+
+
+def test_teaching_the_right_arm_mirrors_what_stands_around() -> None:
+    left, right = Scene(), Scene(arm="right")
+    assert left.placed_blocks == left.blocks
+    assert left.placed_desk == left.desk
+    for seen, mirrored in zip(
+        (*left.placed_blocks, left.placed_desk),
+        (*right.placed_blocks, right.placed_desk),
+        strict=True,
+    ):
+        x, y, z = seen.position
+        assert mirrored.position == (x, -y, z)
+        assert mirrored.size == seen.size
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"mass": 0.0},
+        {"mass": float("nan")},
+        {"mass": float("inf")},
+        {"friction": -0.1},
+        {"friction": float("nan")},
+        {"size": (0.1, 0.0, 0.3)},
+        {"position": (0.8, float("inf"), 0.87)},
+    ],
+)
+def test_impossible_blocks_are_refused(change: dict[str, object]) -> None:
+    with pytest.raises(StudioError, match="block"):
+        replace(BLOCK, **change)  # type: ignore[arg-type]
+
+
+def test_impossible_desks_and_scenes_are_refused() -> None:
+    with pytest.raises(StudioError, match="desk"):
+        Desk((0.6, -0.9, 0.04), (0.75, 0.15, 0.7), 0.8)
+    with pytest.raises(StudioError, match="at least one block"):
+        Scene(blocks=())
+    with pytest.raises(StudioError, match="left or right"):
+        Scene(arm="both")  # type: ignore[arg-type]
