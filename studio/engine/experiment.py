@@ -16,7 +16,7 @@ from studio.engine.demonstration import (
 from studio.engine.errors import FileError, NothingTaughtError
 from studio.engine.follow import follow, ticks_of
 from studio.engine.gate import GateMode
-from studio.engine.mcap_file import is_mcap, read_recording
+from studio.engine.mcap_file import MCAP_FORMAT, is_mcap, read_recording
 from studio.engine.pipeline import Pipeline
 from studio.engine.recording import Recording
 from studio.engine.retarget import Mapping
@@ -136,7 +136,7 @@ def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, F
                 f"give --arm {made_with[0]} --mapping {made_with[1]}"
             )
         ticks = list(range(len(recording.samples)))
-        return recording, _outcome(str(given), "studio mcap 1", ticks, recording)
+        return recording, _outcome(str(given), MCAP_FORMAT, ticks, recording)
     stream = read_skeletons(given) if isinstance(given, Path) else given
     recording = follow(
         stream, Pipeline.for_robot(load_robot(), setup.side, setup.mapping, setup.gate)

@@ -3,12 +3,14 @@
 import os
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
+from studio.engine.mcap_file import MCAP_FORMAT, is_mcap, read_recording
 from studio.engine.problems import find_problems
 from studio.engine.skeleton import HandState, Side, Tracking
 from studio.engine.sources.files import read_skeletons
-from studio.engine.sources.recording import SkeletonRecording
+from studio.engine.sources.recording import SkeletonRecording, from_skeletons
 
 
 @dataclass(frozen=True)
@@ -56,12 +58,25 @@ class Inspection:
 def inspect_file(path: str | os.PathLike[str], body: str | None = None) -> Inspection:
     """Return what is in a skeleton file, following ``body`` or the body that teaching would follow.
 
+    Of an MCAP recording the skeletons that it holds are inspected.
+
     Raises
     ------
     FileError
-        As `studio.engine.sources.read_skeletons` does.
+        As `studio.engine.sources.read_skeletons` and `studio.engine.mcap_file.read_recording` do.
     """
+    if is_mcap(Path(path)):
+        return _inspect_mcap(Path(path))
     return inspect_recording(read_skeletons(path, body))
+
+
+def _inspect_mcap(path: Path) -> Inspection:
+    recording = read_recording(path)
+    seen = [sample.skeleton for sample in recording.samples if sample.skeleton is not None]
+    found = inspect_recording(from_skeletons(seen, str(path), MCAP_FORMAT))
+    if not recording.warning:
+        return found
+    return replace(found, problems=(recording.warning, *found.problems))
 
 
 def inspect_recording(recording: SkeletonRecording) -> Inspection:

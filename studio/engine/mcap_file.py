@@ -29,6 +29,7 @@ from studio.engine.skeleton import SIDES
 
 MAGIC: Final = b"\x89MCAP0\r\n"
 SCHEMA_VERSION = "1"
+MCAP_FORMAT = f"studio mcap {SCHEMA_VERSION}"
 # A tick is at least 1.2 kB, so that a chunk fills, and reaches the file, at least once a second.
 CHUNK_BYTES = 24 * 1024
 LARGEST_FILE = 1 << 30  # [bytes] of a recording; ten hours or so

@@ -24,7 +24,7 @@ from studio.engine.pipeline import Pipeline
 from studio.engine.recording import Recording
 from studio.engine.retarget import Mapping
 from studio.engine.robot import load_robot
-from studio.engine.skeleton import Side
+from studio.engine.skeleton import Side, Skeleton
 from studio.engine.snapshot import Entry, Message, Mode, Snapshot, SourceStatus
 from studio.engine.sources import SkeletonRecording, read_skeletons
 from studio.engine.sources.demonstrator import demonstrate
@@ -207,7 +207,8 @@ class Session:
         if found:
             self._say(recording.warning or f"Added {', '.join(each.name for each in found)}.")
         else:
-            ((why, _),) = Counter(sample.held for sample in recording.samples).most_common(1)
+            held = Counter(sample.held for sample in recording.samples if sample.held)
+            why = held.most_common(1)[0][0] if held else "it ended too soon"
             self._say(f"{name}: nothing armed for a second or more: {why}", is_error=True)
 
     def _remove(self, index: int) -> None:
@@ -248,7 +249,7 @@ class Session:
             mapping=self._mapping,
             gate_mode=self._gate,
             source=None if self._stream is None else SourceStatus.of(self._stream),
-            skeleton=following.skeleton if following else None,
+            skeleton=following.skeleton if following else _first(self._stream),
             gate=newest.gate if newest else None,
             held=newest.held if newest else "",
             alone=isinstance(now, Perform) and now.lesson is not None,
@@ -261,6 +262,10 @@ class Session:
             recorded=len(following.samples) if following and following.writer else 0,
             saved_as=self._saved_as,
         )
+
+
+def _first(stream: SkeletonRecording | None) -> Skeleton | None:
+    return stream[0] if stream else None
 
 
 def _mode(activity: Activity) -> Mode:

@@ -66,7 +66,7 @@ class Snapshot:
     mapping: Mapping
     gate_mode: GateMode
     source: SourceStatus | None
-    skeleton: Skeleton | None  # the newest one
+    skeleton: Skeleton | None  # the newest one; the source's first while nobody is watched
     gate: GateStatus | None  # None while nobody is watched
     held: str  # why the robot does not follow
     alone: bool  # it plays what it learned, not a demonstration

@@ -4,7 +4,7 @@ import viser
 
 from studio.engine import commands
 from studio.engine.snapshot import Snapshot
-from studio.panels.inputs import Post, on_choice
+from studio.panels.inputs import Post, on_choice, show_value
 from studio.panels.readiness import described
 
 _NONE = "none yet"
@@ -35,5 +35,5 @@ class DemonstrationChooser:
         if names != self._names:
             self._names = names
             self._dropdown.options = names
-        self._dropdown.value = names[max(now.chosen, 0)]
+        show_value(self._dropdown, names[max(now.chosen, 0)])
         self._dropdown.disabled = not now.entries

@@ -47,14 +47,12 @@ class GatePanel:
 def view(now: Snapshot) -> GateView:
     """Return what to say of a snapshot."""
     gate = now.gate
+    unused = tuple(Step(state, "unused", 0.0) for state in SEQUENCE)
     if gate is None:
-        asked = "the gate stands open." if now.gate_mode == "open" else "sign with the left hand."
-        steps = tuple(Step(state, "unused", 0.0) for state in SEQUENCE)
-        return GateView(steps, "Nobody is watched", f"Press Record or Watch in 2 Teach, then {asked}")
+        return GateView(unused, "Nobody is watched", "Press Record or Watch in 2 Teach.")
     if now.gate_mode == "open":
-        steps = tuple(Step(state, "unused", 0.0) for state in SEQUENCE)
         headline = "Armed without signs" if gate.armed else "Not armed"
-        return GateView(steps, headline, now.held or "the gate stands open")
+        return GateView(unused, headline, now.held or "the gate stands open")
     steps = tuple(_step(gate, number) for number in range(len(SEQUENCE)))
     if not gate.armed:
         return GateView(steps, "Not armed", gate.detail)

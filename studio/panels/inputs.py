@@ -17,3 +17,9 @@ def on_choice(control: viser.GuiInputHandle[Any], act: Callable[[], None]) -> No
     def _changed(event: viser.GuiEvent[Any]) -> None:
         if event.client is not None:
             act()
+
+
+def show_value(control: viser.GuiInputHandle[Any], value: object) -> None:
+    """Show a value in a control; `on_choice` does not hear of it."""
+    # viser puts a method between the property and its setter, so mypy sees no setter.
+    control.value = value  # type: ignore[misc]

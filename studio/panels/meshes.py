@@ -5,20 +5,21 @@ simplified by vertex clustering: it takes a second for the whole robot, so that 
 kept in a cache.
 """
 
+import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
+from trimesh import visual as trimesh_visual
 
 from studio.engine.robot import Robot, Visual
 from studio.engine.skeleton import FloatArray
 from studio.engine.urdf import Box, Cylinder, Mesh, Sphere
 
-FINE = 0.004  # [m] detail that is kept of the robot
+FINE = 0.002  # [m] detail that is kept of the robot
 COARSE = 0.010  # [m] the same of a ghost, through which one looks
-_SILK = trimesh.visual.material.PBRMaterial(metallicFactor=0.0, roughnessFactor=0.55)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,10 +40,14 @@ class Surface:
             vertex_normals=np.round(self.normals * 64.0) / 64.0,
             process=False,
         )
-        mesh.visual = trimesh.visual.TextureVisuals(material=_SILK)
+        silk = trimesh_visual.material.PBRMaterial(  # type: ignore[no-untyped-call]
+            metallicFactor=0.0, roughnessFactor=0.55
+        )
+        mesh.visual = trimesh_visual.TextureVisuals(material=silk)  # type: ignore[no-untyped-call]
         mesh.visual.vertex_attributes["color"] = self.colors
-        glb: bytes = mesh.export(file_type="glb", include_normals=True)
-        return glb
+        glb = io.BytesIO()
+        mesh.export(glb, file_type="glb", include_normals=True)
+        return glb.getvalue()
 
 
 @dataclass(frozen=True, eq=False)

@@ -53,19 +53,20 @@ def why_not_replay(now: Snapshot) -> str:
 
 def next_step(now: Snapshot) -> str:
     """Return what a newcomer should do next."""
-    if _follows(now):
-        return "watch the gate; Stop ends it and keeps what was recorded."
-    if now.mode is Mode.PLAYING:
-        return "watch the block."
-    if not fitting(now):
-        if now.source is None:
-            return "1 Source: choose who teaches, for example the demonstrator."
-        return "2 Teach: press Record."
-    if now.lesson is None:
-        return "3 Learn: press Train."
-    if now.reproduction is None:
-        return "4 Compare: let Baxter do it alone."
-    return "3 Learn: try fewer neurons, train again, and compare."
+    learned, done = now.lesson is not None, now.reproduction is not None
+    return next(
+        words
+        for applies, words in (
+            (_follows(now), "watch the gate; Stop ends it and keeps what was recorded."),
+            (now.mode is Mode.PLAYING, "watch the block."),
+            (learned and not done, "4 Compare: let Baxter do it alone."),
+            (learned, "3 Learn: try fewer neurons, train again, and compare."),
+            (bool(fitting(now)), "3 Learn: press Train."),
+            (now.source is not None, "2 Teach: press Record."),
+            (True, "1 Source: choose who teaches, for example the demonstrator."),
+        )
+        if applies
+    )
 
 
 def described(demonstrations: Sequence[Entry], index: int) -> str:

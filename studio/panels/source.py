@@ -9,10 +9,10 @@ from studio.engine.errors import FileError
 from studio.engine.gate import GateMode
 from studio.engine.resources import samples_folder
 from studio.engine.retarget import Mapping
-from studio.engine.skeleton import SIDES, Side
+from studio.engine.skeleton import SIDES
 from studio.engine.snapshot import Snapshot, SourceStatus
 from studio.panels import markup
-from studio.panels.inputs import Post, on_choice
+from studio.panels.inputs import Post, on_choice, show_value
 from studio.panels.readiness import why_not_configure
 from studio.panels.uploads import Uploads, shown_name
 
@@ -50,9 +50,9 @@ class SourcePanel:
         settings = (now.side, now.mapping, now.gate_mode, now.message.number)
         if settings != self._drawn:
             self._drawn = settings
-            self._side.value = now.side
-            self._mapping.value = MAPPINGS[now.mapping]
-            self._gate.value = GATES[now.gate_mode]
+            show_value(self._side, now.side)
+            show_value(self._mapping, MAPPINGS[now.mapping])
+            show_value(self._gate, GATES[now.gate_mode])
         refusal = why_not_configure(now)
         for control in self._settings:
             control.disabled = bool(refusal)

@@ -2,6 +2,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yourdfpy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
@@ -72,8 +73,6 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["desk", "block"])
 def test_a_boxs_inertia_is_that_of_its_mass_spread_evenly(name: str) -> None:
-    import yourdfpy  # takes 0.7 s
-
     path = resource_root() / "urdf" / f"{name}.urdf"
     (link,) = yourdfpy.URDF.load(str(path), load_meshes=False).robot.links
     (shape,) = (placed.shape for placed in read_urdf(path).links[0].collisions)

@@ -1,10 +1,8 @@
-import hashlib
 import math
 import subprocess
 import sys
 import threading
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,145 +10,16 @@ import pytest
 
 from studio.engine.errors import StudioError
 from studio.engine.robot import JOINT_NAMES, load_robot
-from studio.engine.scene import Block, Desk, Scene
-from studio.engine.skeleton import SIDES, FloatArray, Side
-from studio.engine.world import World, WorldState
-
-DRIVEN = ("s0", "s1", "e0", "e1")
-SETTLE = 45  # ticks after a motion
-
-# Ways to push the block down: stamps [s] and s0, s1, e0, e1 [rad] of the left arm. The first bends
-# the elbow; the other two turn the shoulder alone, as the exact and the paper's mapping have it.
-BEND = (
-    (0.0, 1.0, 2.8, 3.2, 5.4, 5.9),
-    (
-        (0.234, 0.999, -2.212, 1.177),
-        (0.270, 0.964, -1.966, 1.036),
-        (0.140, 0.787, -1.201, 1.611),
-        (0.140, 0.787, -1.201, 1.611),
-        (0.234, 0.999, -2.212, 1.177),
-        (0.234, 0.999, -2.212, 1.177),
-    ),
-)
-
-
-def sweep(start: tuple[float, ...], s0: float) -> tuple[tuple[float, ...], tuple[object, ...]]:
-    there = (s0, *start[1:])
-    return (0.0, 0.6, 2.8, 3.2, 5.4, 5.8), (start, start, there, there, start, start)
-
-
-MOTIONS = {
-    "bend": BEND,
-    "sweep exact": sweep((0.081, -0.521, -0.419, 1.391), -1.054),
-    "sweep paper": sweep((0.0, -0.349, 0.0, 1.231), -1.134),
-}
-# A scene in which nothing is in the way.
-EMPTY = Scene(
-    desk=Desk((0.1, 0.1, 0.1), (9.0, 9.0, 0.05), 0.5),
-    blocks=(Block((0.1, 0.1, 0.1), (7.0, 7.0, 0.05), 0.4, 0.5),),
-)
-
-
-def rows(name: str, side: Side = "left") -> FloatArray:
-    """Return a motion (T, 4) [rad] at 30 Hz: minimum-jerk pieces from stamp to stamp."""
-    stamps, angles = (np.array(part) for part in MOTIONS[name])
-    times = np.arange(round(stamps[-1] * 30) + 1) / 30
-    piece = np.clip(np.searchsorted(stamps, times, side="right") - 1, 0, len(stamps) - 2)
-    share = ((times - stamps[piece]) / np.diff(stamps)[piece])[:, None]
-    smooth = share**3 * (10 - 15 * share + 6 * share**2)
-    motion = angles[piece] + (angles[piece + 1] - angles[piece]) * smooth
-    return motion if side == "left" else motion * [-1, 1, -1, 1]
-
-
-def command(row: FloatArray, side: Side = "left") -> dict[str, float]:
-    return dict(zip((f"{side}_{joint}" for joint in DRIVEN), row.tolist(), strict=True))
-
-
-def play(scene: Scene, motion: FloatArray, side: Side = "left") -> list[WorldState]:
-    """Return the states after each command, and after a time to settle."""
-    with World(scene, command(motion[0], side)) as world:
-        states = []
-        for row in motion:
-            world.apply(command(row, side))
-            states.append(world.step())
-        return states + [world.step() for _ in range(SETTLE)]
-
-
-def moved(scene: Scene, x: float, y: float) -> Scene:
-    block = scene.blocks[0]
-    at = (block.position[0] + x, block.position[1] + y, block.position[2])
-    return replace(scene, blocks=(replace(block, position=at), *scene.blocks[1:]))
-
-
-def fingerprint(states: list[WorldState]) -> str:
-    numbers = [
-        np.concatenate([s.joint_positions, s.joint_velocities, s.block_poses.ravel()])
-        for s in states
-    ]
-    return hashlib.sha256(np.array(numbers).tobytes()).hexdigest()
+from studio.engine.scene import Scene
+from studio.engine.skeleton import FloatArray
+from studio.engine.world import World
+from tests.engine.motions import EMPTY, MOTIONS, SETTLE, command, fingerprint, play, rows
 
 
 @pytest.fixture
 def world() -> Iterator[World]:
     with World() as world:
         yield world
-
-
-# The task
-
-
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize("motion", MOTIONS)
-def test_the_block_can_be_pushed_down_and_the_others_stay(motion: str, side: Side) -> None:
-    states = play(Scene(arm=side), rows(motion, side), side)
-    assert states[-1].block_down
-    assert not states[0].touched
-    others = states[-1].block_poses[1:, :3] - states[0].block_poses[1:, :3]
-    assert np.abs(others).max() < 5e-4
-
-
-@pytest.mark.parametrize("motion", MOTIONS)
-@pytest.mark.parametrize(("x", "y"), [(0.02, 0.02), (0.02, -0.02), (-0.02, 0.02), (-0.02, -0.02)])
-def test_the_block_may_stand_two_centimeters_off(motion: str, x: float, y: float) -> None:
-    assert play(moved(Scene(), x, y), rows(motion))[-1].block_down
-
-
-@pytest.mark.parametrize("motion", MOTIONS)
-def test_an_arm_that_stays_where_it_is_leaves_the_block_standing(motion: str) -> None:
-    states = play(Scene(), np.repeat(rows(motion)[:1], 150, axis=0))
-    assert not any(state.touched or state.block_down for state in states)
-    assert states[-1].tilt < math.radians(0.05)
-
-
-def test_idle_blocks_stand_still(world: World) -> None:
-    for _ in range(150):
-        state = world.step()
-    places = np.array([block.position for block in world.scene.placed_blocks])
-    np.testing.assert_allclose(state.block_poses[:, :3], places, atol=3e-4)
-    assert np.abs(state.block_poses[:, 3:6]).max() < 1e-3
-
-
-@pytest.mark.parametrize(("taught", "counts"), [("right", True), ("left", False)])
-def test_a_push_by_the_arm_that_is_not_taught_does_not_count(taught: Side, counts: bool) -> None:
-    scene = Scene(arm="right")
-    if taught == "left":  # told mirrored, so that everything stands in the same places
-        scene = Scene(desk=scene.placed_desk, blocks=scene.placed_blocks, arm="left")
-    last = play(scene, rows("sweep exact", "right"), "right")[-1]
-    assert last.tilt > math.radians(60)
-    assert last.touched == counts
-    assert last.block_down == counts
-
-
-def test_a_block_that_falls_by_itself_does_not_count() -> None:
-    high = Block((0.06, 0.06, 0.3), (1.04, 0.2, 0.88), 0.4, 0.6)
-    with World(Scene(blocks=(high,))) as world:
-        states = [world.step() for _ in range(60)]
-    assert states[-1].tilt < math.radians(5)
-    edge = replace(high, position=(1.09, 0.2, 0.88))  # its middle is beyond the desk's edge
-    with World(Scene(blocks=(edge,))) as world:
-        states = [world.step() for _ in range(120)]
-    assert max(state.tilt for state in states) > math.radians(60)
-    assert not any(state.touched or state.block_down for state in states)
 
 
 # The motors
@@ -326,17 +195,18 @@ def test_worlds_beside_each_other_do_not_mix() -> None:
 
 
 SCRIPT = """
-import sys
-sys.path.insert(0, {folder!r})
-from test_world import Scene, fingerprint, play, rows
+from tests.engine.motions import Scene, fingerprint, play, rows
 print(fingerprint(play(Scene(), rows("sweep exact"))))
 """
 
 
 def test_the_same_commands_lead_to_the_same_bits_in_any_process() -> None:
     here = fingerprint(play(Scene(), rows("sweep exact")))
-    script = SCRIPT.format(folder=str(Path(__file__).parent))
     done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+        [sys.executable, "-c", SCRIPT],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=Path(__file__).resolve().parents[2],
     )
     assert done.stdout == here + "\n"

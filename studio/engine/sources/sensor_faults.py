@@ -38,6 +38,7 @@ _LOST_FRAMES = 0.015
 _STALLS = 1.0 / 60.0  # [1/s] of 167 ms, with a burst of 1 ms behind
 _HAND_GAPS = 0.35  # [1/s] of Unknown or NotTracked while a sign is held
 _GAP_LENGTHS = (2, 2, 2, 2, 4, 6, 8, 12)  # frames: median 2, three quarters below 8
+_DIGITS = 6  # of a meter: a Kinect tells single precision
 _LASSO_FLICKER = 0.4  # [1/s] of two frames of Closed
 
 
@@ -48,6 +49,7 @@ def sense(
     noisy = positions + _noise(positions, rng)
     for side in ("left", "right"):
         _spike(noisy, Joint[f"WRIST_{side.upper()}"], rng)
+    noisy = noisy.round(_DIGITS)
     tracking = _tracking(len(positions), rng)
     hands = _hand_states(left_hand, rng)
     times, kept = _stamps(len(positions), rng)

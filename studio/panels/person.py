@@ -1,0 +1,116 @@
+"""The person, standing beside the robot and facing the way it faces."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import trimesh
+import viser
+from numpy.typing import NDArray
+
+from studio.engine.skeleton import (
+    BONES,
+    JOINT_COUNT,
+    FloatArray,
+    HandState,
+    Joint,
+    Side,
+    Skeleton,
+    Tracking,
+)
+from studio.panels.palette import HAND
+
+BESIDE = 1.25  # [m] from the robot, on the side of the arm that is not taught
+ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
+_BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
+
+# The axes of a person who faces the sensor, in camera space: forward, left, up.
+WORLD_FROM_CAMERA = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """Where camera space lies in the world, for one person: ``world = R · camera + offset``."""
+
+    offset: FloatArray  # (3,) [m]
+    body_id: str
+
+    @classmethod
+    def of(cls, skeleton: Skeleton, side: Side) -> "Placement":
+        """Put a person's hips over the spot beside the robot, and the lowest joint on the floor."""
+        turned = skeleton.positions @ WORLD_FROM_CAMERA.T
+        spot = np.array([0.0, -BESIDE if side == "left" else BESIDE])
+        offset = np.append(spot - turned[Joint.SPINE_BASE, :2], -turned[:, 2].min())
+        return cls(offset, skeleton.body_id)
+
+    def place(self, positions: FloatArray) -> FloatArray:
+        """Return points (..., 3) [m] of camera space in the world."""
+        placed: FloatArray = positions @ WORLD_FROM_CAMERA.T + self.offset
+        return placed
+
+
+class PersonView:
+    """Draws the skeleton: all joints as one node, all bones as another, the signing hand."""
+
+    def __init__(self, scene: viser.SceneApi, name: str = "/person") -> None:
+        self._placement: Placement | None = None
+        self._drawn: Skeleton | None = None
+        self._root = scene.add_frame(name, show_axes=False, visible=False)
+        ball = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
+        self._joints = scene.add_batched_meshes_simple(
+            f"{name}/joints",
+            ball.vertices,
+            ball.faces,
+            batched_wxyzs=np.tile((1.0, 0.0, 0.0, 0.0), (JOINT_COUNT, 1)),
+            batched_positions=np.zeros((JOINT_COUNT, 3)),
+            batched_scales=_sizes(),
+            batched_colors=np.tile(np.array(_JOINT, np.uint8), (JOINT_COUNT, 1)),
+            lod="off",
+        )
+        self._bones = scene.add_line_segments(
+            f"{name}/bones",
+            np.zeros((len(BONES), 2, 3)),
+            colors=_BONE,
+            thickness=0.028,
+            thickness_units="world",
+        )
+        self._hand = scene.add_icosphere(f"{name}/left_hand", radius=0.06)
+        self._label = scene.add_label(
+            f"{name}/left_hand_state", "", anchor="bottom-center", font_screen_scale=1.3
+        )
+
+    def draw(self, skeleton: Skeleton | None, side: Side) -> None:
+        """Show a person, or nobody."""
+        self._root.visible = skeleton is not None
+        if skeleton is None:
+            self._placement = None
+        if skeleton is None or skeleton is self._drawn:
+            return
+        if self._placement is None or self._placement.body_id != skeleton.body_id:
+            self._placement = Placement.of(skeleton, side)
+        self._drawn = skeleton
+        points = self._placement.place(skeleton.positions)
+        self._joints.batched_positions = points.astype(np.float32)
+        self._joints.batched_colors = joint_colors(skeleton)
+        self._bones.points = points[np.array(BONES)]
+        hand, state = points[Joint.HAND_LEFT], skeleton.left_hand.state
+        self._hand.position, self._hand.color = hand, HAND[state]
+        self._label.position = hand + ABOVE
+        self._label.text = hand_words(state)
+
+
+def hand_words(state: HandState) -> str:
+    """Return what the left hand is seen to do."""
+    return f"left hand: {state.value.replace('_', ' ').upper()}"
+
+
+def joint_colors(skeleton: Skeleton) -> NDArray[np.uint8]:
+    """Return the joints' colors (25, 3): pale where the sensor only guesses."""
+    sure = (skeleton.tracking == Tracking.TRACKED)[:, None]
+    return np.where(sure, _JOINT, _UNSURE).astype(np.uint8)
+
+
+def _sizes() -> FloatArray:
+    """Return the joints' radii (25,) [m]."""
+    sizes = np.full(JOINT_COUNT, 0.026)
+    sizes[Joint.HEAD] = 0.10
+    return sizes

@@ -1,0 +1,175 @@
+"""The commands as a shell sees them: exit status, one JSON object, errors in words."""
+
+import gzip
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from studio.engine.resources import samples_folder
+from studio.engine.skeleton import HandState
+from studio.engine.sources import write_skeletons
+from studio.engine.sources.demonstrator import demonstrate
+
+ROOT = Path(__file__).resolve().parent.parent
+REAL = ROOT.parent / "shared" / "data" / "kinect"
+
+
+def studio(*arguments: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """Run ``python -m studio`` from any folder; an unexpected traceback fails the test."""
+    done = subprocess.run(
+        [sys.executable, "-m", "studio", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        cwd=cwd,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        check=False,
+        timeout=120,
+    )
+    assert "Traceback" not in done.stderr, done.stderr
+    return done
+
+
+def test_the_headless_demo_prints_one_object_and_the_same_one(tmp_path: Path) -> None:
+    command = ("demo", "--headless", "--json", "--demonstrations", "2", "--mapping", "paper")
+    first, second = studio(*command, cwd=tmp_path), studio(*command, cwd=tmp_path)
+    assert first.returncode == 0
+    assert first.stdout == second.stdout
+    found = json.loads(first.stdout)
+    assert found["joints"] == ["left_s0", "left_s1", "left_e1"]
+    assert found["reproduction"]["block_down"] is True
+    assert [d["block_down"] for d in found["demonstrations"]] == [True, True]
+    assert [f["path"] for f in found["files"]] == ["demonstrator:1", "demonstrator:2"]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_teaching_from_the_samples(tmp_path: Path) -> None:
+    samples = sorted(samples_folder().glob("*.mcap"))
+    assert len(samples) == 4
+    done = studio("teach", *samples, "--json", cwd=tmp_path)
+    assert done.returncode == 0
+    found = json.loads(done.stdout)
+    assert found["reproduction"]["block_down"] is True
+    assert all(each["block_down"] for each in found["demonstrations"])
+    saved = studio(
+        "teach", samples_folder() / "teaches-the-push.jsonl", "--save", tmp_path / "kept"
+    )
+    assert saved.returncode == 0
+    assert "Block down: alone yes" in saved.stdout
+    again = studio("teach", tmp_path / "kept" / "demonstration-001.mcap", "--json")
+    assert json.loads(again.stdout)["files"][0]["armed_frames"] > 150
+
+
+def test_where_nothing_arms() -> None:
+    done = studio("teach", samples_folder() / "never-arms.jsonl", "--json")
+    assert done.returncode == 1
+    found = json.loads(done.stdout)
+    assert found["files"][0]["armed"] == []
+    assert "waiting for Lasso" in found["error"]
+    assert "waiting for Lasso" in done.stderr
+
+
+def test_a_file_without_hand_states_moves_only_on_request(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    rows = [",".join(f"{x:.5f}" for x in s.positions.ravel()) for s in demonstrate(0, 1)]
+    path.write_text("\n".join(rows))
+    still = studio("teach", path, "--json")
+    assert still.returncode == 1
+    assert "--gate open" in json.loads(still.stdout)["error"]
+    moved = json.loads(studio("teach", path, "--gate", "open", "--json").stdout)
+    assert moved["files"][0]["armed_frames"] == moved["files"][0]["frames"]
+
+
+def test_inspect_tells_what_is_in_a_file(tmp_path: Path) -> None:
+    found = json.loads(studio("inspect", samples_folder() / "never-arms.jsonl", "--json").stdout)
+    assert set(found) == {
+        *("format", "frames", "seconds", "bodies", "left_hand", "right_hand", "tracking"),
+        "problems",
+    }
+    assert found["left_hand"]["closed"] > 0
+    recording = studio("inspect", samples_folder() / "demonstration-1.mcap", "--json")
+    assert json.loads(recording.stdout)["format"] == "studio mcap 1"
+
+
+def broken_files(folder: Path) -> list[Path]:
+    take = demonstrate(0, 1, (HandState.LASSO,))
+    write_skeletons(folder / "good.jsonl", take)
+    text = (folder / "good.jsonl").read_bytes()
+    sample = (samples_folder() / "demonstration-1.mcap").read_bytes()
+    contents = {
+        "empty": b"",
+        "binary": bytes(range(256)) * 4,
+        "cut.jsonl": text[:5000],
+        "cut.gz": gzip.compress(text)[:300],
+        "nan.csv": b",".join([b"nan"] * 75),
+        "head.mcap": sample[:100],
+        "deep.json": b"[" * 100_000,
+    }
+    for name, content in contents.items():
+        (folder / name).write_bytes(content)
+    return [folder / name for name in contents] + [folder / "missing", folder]
+
+
+def test_broken_files_give_words_and_no_traceback(tmp_path: Path) -> None:
+    for path in broken_files(tmp_path):
+        for command in (("teach", path, "--json"), ("inspect", path)):
+            done = studio(*command)
+            assert done.returncode == 1, command
+            assert str(path) in done.stderr
+    assert json.loads(studio("teach", tmp_path / "empty", "--json").stdout)["files"] == []
+
+
+@pytest.mark.parametrize("command", [(), ("demo",), ("teach",), ("inspect",), ("serve",)])
+def test_help_reads(command: tuple[str, ...]) -> None:
+    done = studio(*command, "--help")
+    assert done.returncode == 0
+    assert "usage: studio" in done.stdout
+
+
+def test_impossible_options_are_refused_in_words() -> None:
+    for command in (("demo", "--headless", "--neurons", "0"), ("demo", "--demonstrations", "0")):
+        done = studio(*command)
+        assert done.returncode == 1
+        assert command[-2].lstrip("-") in done.stderr
+    assert studio("demo", "--mapping", "guess").returncode == 2
+
+
+needs_real_data = pytest.mark.skipif(not REAL.is_dir(), reason=f"needs real recordings at {REAL}")
+
+
+@needs_real_data
+def test_the_one_true_sequence_in_a_real_recording_arms_and_teaches() -> None:
+    done = studio("teach", REAL / "kinect2-socket" / "hands_gestures.json.gz", "--json")
+    (file,) = json.loads(done.stdout)["files"]
+    ((first, last),) = file["armed"]
+    assert abs(first - 485) <= 3
+    assert last == file["frames"] - 1 == 534
+
+
+@needs_real_data
+@pytest.mark.parametrize("name", ["test_record.json", "hand_flap.json.gz"])
+def test_real_recordings_without_the_sequence_never_arm(name: str) -> None:
+    done = studio("teach", REAL / "kinect2-socket" / name, "--json")
+    assert done.returncode == 1
+    assert json.loads(done.stdout)["files"][0]["armed"] == []
+
+
+@needs_real_data
+def test_a_real_recording_without_hand_states_stays_still_until_the_gate_is_opened() -> None:
+    path = REAL / "labanotation" / "Ges01_wavehand.csv"
+    assert studio("teach", path, "--json").returncode == 1
+    opened = studio("teach", path, "--gate", "open", "--json")
+    assert json.loads(opened.stdout)["files"][0]["armed_frames"] == 154
+
+
+@needs_real_data
+def test_every_real_file_is_inspected_or_refused_in_words() -> None:
+    for path in sorted(p for p in REAL.glob("*/*") if p.is_file()):
+        done = studio("inspect", path, "--json")
+        if done.returncode == 0:
+            assert json.loads(done.stdout)["frames"] > 0
+        else:
+            assert str(path) in done.stderr
