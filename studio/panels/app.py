@@ -17,7 +17,7 @@ from studio.panels.palette import BRAND
 from studio.panels.plots import EvidencePanel
 from studio.panels.scene import SceneView
 from studio.panels.source import SourcePanel
-from studio.panels.status import StatusPanel
+from studio.panels.status import MessagePanel, StatusPanel
 from studio.panels.teach import TeachPanel
 from studio.panels.uploads import Uploads
 
@@ -71,8 +71,8 @@ class App:
     def _lay_out(self, gui: viser.GuiApi) -> None:
         """Dock the steps to the left, under what is always in sight; the evidence to the right."""
         gui.configure_theme(brand_color=BRAND, show_logo=False, show_share_button=False)
-        self._status = StatusPanel(gui, self._post)
-        gate = GatePanel(gui)
+        status, gate = StatusPanel(gui, self._post), GatePanel(gui)
+        self._messages = MessagePanel(gui)
         steps, evidence = gui.add_panel(), gui.add_panel()
         with steps.add_tab("1 Source"):
             source = SourcePanel(gui, self._post, self._uploads)
@@ -84,7 +84,7 @@ class App:
             compare = ComparePanel(gui, self._post)
         with evidence.add_tab("Evidence") as tab:
             plots = EvidencePanel(gui, tab)
-        self._panels = (self._status, gate, source, teach, learn, compare, plots)
+        self._panels = (status, gate, self._messages, source, teach, learn, compare, plots)
         gui.main_panel.dock_left()
         gui.main_panel.set_width(STEPS_WIDTH)
         steps.dock_below(gui.main_panel)
@@ -102,7 +102,7 @@ class App:
             try:
                 now = self._loop.session.snapshot
             except StudioError as error:
-                self._status.fail(str(error))
+                self._messages.fail(str(error))
                 return
             # Nothing but drawing in here: all broadcasts wait until it is through.
             with self._server.atomic():
@@ -116,4 +116,4 @@ class App:
         for panel in self._panels:
             panel.draw(now)
         if self.scene.lacks_meshes:
-            self._status.notify(_NO_MESHES)
+            self._messages.notify(_NO_MESHES)

@@ -34,7 +34,7 @@ def problem(words: str) -> str:
 
 def reasons(words: Iterable[str]) -> str:
     """Return why something cannot be done yet, one line each; nothing for no words."""
-    lines = [f"⛔ {text(each)}" for each in dict.fromkeys(words) if each]
+    lines = [f"✖ {text(each)}" for each in dict.fromkeys(words) if each]
     return block("<br>".join(lines), "font-size:.9em") if lines else ""
 
 

@@ -19,7 +19,7 @@ from studio.engine.skeleton import (
 )
 from studio.panels.palette import HAND
 
-BESIDE = 1.25  # [m] from the robot, on the side of the arm that is not taught
+BESIDE = (0.8, 1.35)  # [m] before the robot, and to the side of the arm that is not taught
 ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
 _BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
 
@@ -38,7 +38,8 @@ class Placement:
     def of(cls, skeleton: Skeleton, side: Side) -> "Placement":
         """Put a person's hips over the spot beside the robot, and the lowest joint on the floor."""
         turned = skeleton.positions @ WORLD_FROM_CAMERA.T
-        spot = np.array([0.0, -BESIDE if side == "left" else BESIDE])
+        ahead, aside = BESIDE
+        spot = np.array([ahead, -aside if side == "left" else aside])
         offset = np.append(spot - turned[Joint.SPINE_BASE, :2], -turned[:, 2].min())
         return cls(offset, skeleton.body_id)
 

@@ -114,8 +114,8 @@ class SceneView:
 def _set_the_stage(server: viser.ViserServer) -> None:
     """Set camera, light, backdrop and floor."""
     camera = server.initial_camera
-    camera.position, camera.look_at = (2.75, 0.55, 1.85), (0.25, -0.28, 0.86)
-    camera.fov = math.radians(50.0)
+    camera.position, camera.look_at = (3.95, 0.75, 2.0), (0.3, -0.35, 0.82)
+    camera.fov = math.radians(42.0)
     scene = server.scene
     scene.configure_environment_map("studio", environment_intensity=0.25)
     backdrop = np.linspace(_SKY, _GROUND, 64).astype(np.uint8)[:, None, :]

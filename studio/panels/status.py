@@ -20,7 +20,7 @@ _PILLS: dict[Mode, tuple[str, str, Color]] = {
 
 
 class StatusPanel:
-    """The strip above all others."""
+    """State and Stop, above all others."""
 
     def __init__(self, gui: viser.GuiApi, post: Post) -> None:
         self._strip = gui.add_html("")
@@ -31,12 +31,21 @@ class StatusPanel:
             icon=viser.Icon.PLAYER_STOP,
         )
         self._stop.on_click(lambda _: post(commands.Stop()))
+
+    def draw(self, now: Snapshot) -> None:
+        """Show a snapshot."""
+        self._strip.content = strip(now)
+
+
+class MessagePanel:
+    """The newest message and the next step."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
         self._words = gui.add_html("")
         self._notice = gui.add_html("", visible=False)
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
-        self._strip.content = strip(now)
         self._words.content = words(now)
 
     def notify(self, text: str) -> None:
@@ -45,16 +54,18 @@ class StatusPanel:
 
     def fail(self, reason: str) -> None:
         """Show that the engine has ended, which only a new start cures."""
-        self._strip.content = markup.block(markup.pill("✖", "ENDED", (60, 60, 60)))
         self._words.content = markup.problem(f"{reason}. Start the studio again.")
 
 
 def strip(now: Snapshot) -> str:
-    """Return the state pill with the time beside it."""
+    """Return the state pill with what it is about and the time beside it."""
     sign, word, color = _PILLS[now.mode]
-    style = "margin-left:.5em;font-variant-numeric:tabular-nums"
-    clock = f'<span style="{style}">{markup.text(_clock(now))}</span>'
-    return markup.block(markup.pill(sign, word, color) + clock, "margin-top:.5em")
+    beside = "".join(f"<div>{markup.text(line)}</div>" for line in _beside(now))
+    style = "font-size:.9em;line-height:1.2;font-variant-numeric:tabular-nums"
+    return markup.block(
+        f'{markup.pill(sign, word, color)}<div style="{style}">{beside}</div>',
+        "display:flex;gap:.6em;align-items:center;margin-top:.5em;min-height:max(36px,4.2vh)",
+    )
 
 
 def words(now: Snapshot) -> str:
@@ -68,10 +79,14 @@ def _message(words: str) -> str:
     return markup.block(markup.text(words))
 
 
-def _clock(now: Snapshot) -> str:
+def _beside(now: Snapshot) -> tuple[str, ...]:
     if now.mode is Mode.IDLE:
-        return ""
-    what = {Mode.PLAYING: "alone" if now.alone else "a demonstration"}.get(now.mode, "")
-    if now.mode is Mode.RECORDING and now.gate is not None:
-        what = "Baxter follows" if now.gate.armed else "gate closed"
-    return f"{what} {now.time:.0f} / {now.duration:.0f} s".strip()
+        return ()
+    clock = f"{now.time:.0f} of {now.duration:.0f} s"
+    if now.mode is Mode.PLAYING:
+        return ("Baxter alone" if now.alone else "a demonstration"), clock
+    return ("Baxter follows" if _followed(now) else "Baxter waits"), clock
+
+
+def _followed(now: Snapshot) -> bool:
+    return now.gate is not None and now.gate.armed and not now.held

@@ -1,10 +1,11 @@
 """Synthetic demonstrations of the paper's task, with its floors."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits  # comes with scikit-learn
 
 Demonstrations = Callable[..., NDArray[np.float64]]
 
@@ -40,6 +41,13 @@ def pooled(demonstrations: NDArray[np.float64]) -> tuple[NDArray[np.float64], ND
     count, samples, outputs = demonstrations.shape
     index = np.tile(np.arange(1.0, samples + 1.0), count)
     return index, demonstrations.reshape(-1, outputs)
+
+
+@pytest.fixture(autouse=True, scope="package")
+def one_thread() -> Iterator[None]:
+    """Keep BLAS to one thread: for matrices this small, more only wait for each other."""
+    with threadpool_limits(1):
+        yield
 
 
 @pytest.fixture

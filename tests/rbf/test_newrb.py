@@ -5,6 +5,7 @@ import pytest
 
 from studio.rbf import NewrbRegressor, NotFittedError, mean_squared_error
 from studio.rbf.basis import gaussian_design
+from tests.rbf.naive import naive_picks
 
 INDEX = np.arange(1.0, 143.0)
 
@@ -38,6 +39,22 @@ def test_weights_and_bias_are_least_squares_over_all_samples(demonstrations, poo
     expected = np.linalg.lstsq(np.column_stack([design, np.ones(len(index))]), rows)[0]
     np.testing.assert_allclose(model.weights_, expected[:-1], rtol=1e-7, atol=1e-9)
     np.testing.assert_allclose(model.bias_, expected[-1], rtol=1e-7, atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_picks_are_those_of_a_naive_port_over_all_samples(seed):
+    generator = np.random.default_rng(seed)
+    stamps = generator.permutation(40).astype(float)
+    index = np.concatenate([stamps, stamps[:25]])  # some repeat, none in order
+    rows = np.sin(index[:, np.newaxis] / [3.0, 5.0]) + generator.normal(size=(65, 2)) * [0.1, 2.0]
+    model = NewrbRegressor(max_neurons=25).fit(index, rows)
+    design = gaussian_design(index[:, np.newaxis], stamps[:, np.newaxis], model.width_)
+    np.testing.assert_array_equal(model.centers_[:, 0], stamps[naive_picks(design, rows, 25)])
+
+
+def test_the_first_sample_wins_a_tie():
+    assert NewrbRegressor(max_neurons=1).fit([7.0, 3.0], [1.0, 1.0]).centers_[0, 0] == 7.0
+    assert NewrbRegressor(max_neurons=1).fit([3.0, 7.0], [1.0, 1.0]).centers_[0, 0] == 3.0
 
 
 def test_a_larger_network_begins_as_the_smaller_one():

@@ -6,26 +6,9 @@ import pytest
 from studio.rbf.basis import gaussian_design, spread_to_width
 from studio.rbf.leastsquares import orthogonalized
 from studio.rbf.selection import deflated_picks, independent_picks, scores
+from tests.rbf.naive import naive_picks
 
 INDEX = np.arange(1.0, 143.0)[:, np.newaxis]
-
-
-def naive_picks(design, targets, count):
-    """Forward orthogonal least squares straight from the formulas: deflate every column."""
-    columns, picks = design.copy(), []
-    for _ in range(count):
-        best, pick = -1.0, -1
-        for j in range(columns.shape[1]):
-            p = columns[:, j]
-            if j in picks:
-                continue
-            score = sum((p @ d) ** 4 / ((p @ p) * (d @ d)) ** 2 for d in targets.T)
-            if score > best:
-                best, pick = score, j
-        picks.append(pick)
-        p = columns[:, pick].copy()
-        columns -= np.outer(p, p @ columns) / (p @ p)
-    return picks
 
 
 def curves(seed):

@@ -164,6 +164,15 @@ def test_a_wrong_value_anywhere_is_refused_with_its_place(document, tmp_path, va
             assert any(key in complaint for key in place if isinstance(key, str)), place
 
 
+def test_a_network_of_no_features_is_refused(document, tmp_path):
+    empty = put(document, ("learned", "n_features_in"), 0)
+    empty = put(empty, ("learned", "centers"), [[] for _ in document["learned"]["centers"]])
+    path = tmp_path / "bad.json"
+    path.write_text(json.dumps(empty), "utf-8")
+    with pytest.raises(ValueError, match=r"centers: expected finite numbers of shape"):
+        load_model(path)
+
+
 def test_a_missing_value_anywhere_is_refused(document, tmp_path):
     path = tmp_path / "bad.json"
     for place in places(document):

@@ -1,0 +1,70 @@
+"""What the README says is run: its Python, its commands, its format."""
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from studio.engine.sources import read_skeletons
+
+ROOT = Path(__file__).resolve().parent.parent
+README = (ROOT / "README.md").read_text()
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+
+
+@pytest.mark.parametrize("code", blocks("python"))
+def test_python_runs(code: str, capfd) -> None:
+    exec(compile(code, "README.md", "exec"), {})
+    assert capfd.readouterr().out
+
+
+COMMANDS = [line.partition("#")[0].strip() for block in blocks("sh") for line in block.splitlines()]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_are_understood(command: str) -> None:
+    """Each is run on a sample; those that open the browser are asked for their help instead."""
+    name, *arguments = shlex.split(re.sub(r"[\[\]]", "", command))
+    assert name == "studio"
+    if "--headless" in arguments:
+        arguments += ["--demonstrations", "1"]
+    elif "FILE" in command:
+        sample = str(ROOT / "recordings" / "samples" / "teaches-the-push.jsonl")
+        arguments = [sample if argument.startswith("FILE") else argument for argument in arguments]
+    else:
+        arguments.append("--help")
+    done = subprocess.run(
+        [sys.executable, "-m", "studio", *arguments], cwd=ROOT, capture_output=True, check=False
+    )
+    assert done.returncode == 0, done.stderr.decode()
+
+
+def test_the_formats_example_is_the_format(tmp_path: Path) -> None:
+    (example,) = blocks("json")
+    frame = json.loads(example)
+    for key, whole in (("positions", [0.1, 0.2, 2.0]), ("tracking", 2)):
+        assert frame[key][0] == whole
+        frame[key] = [whole] * 25
+    empty = re.search(r"`(\{\"skeleton\": 1, \"time\": 0.5\})`", README)
+    assert empty is not None
+    (tmp_path / "example").write_text(f"{json.dumps(frame)}\n{empty[1]}\n")
+    read = read_skeletons(tmp_path / "example")
+    assert (len(read), read.frames) == (1, 2)
+
+
+def test_the_two_commands_are_one_line_each() -> None:
+    for end in ("studio", "pytest"):
+        (line,) = re.findall(rf"^    (python3 -m venv .*/{end})$", README, re.MULTILINE)
+        assert line.count("&&") == 2
+
+
+def test_every_picture_exists() -> None:
+    for picture in re.findall(r"!\[.*?\]\((.*?)\)", README):
+        assert (ROOT / picture).stat().st_size > 10_000
