@@ -17,9 +17,9 @@ from studio.engine.skeleton import (
     Skeleton,
     Tracking,
 )
-from studio.panels.palette import HAND
+from studio.panels.palette import HAND, UNSEEN_HAND
 
-BESIDE = (0.8, 1.35)  # [m] before the robot, and to the side of the arm that is not taught
+BESIDE = (0.75, 1.2)  # [m] before the robot, and to the side of the arm that is not taught
 ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
 _BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
 
@@ -54,7 +54,7 @@ class PersonView:
 
     def __init__(self, scene: viser.SceneApi, name: str = "/person") -> None:
         self._placement: Placement | None = None
-        self._drawn: Skeleton | None = None
+        self._drawn: tuple[Skeleton, bool] | None = None
         self._root = scene.add_frame(name, show_axes=False, visible=False)
         ball = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
         self._joints = scene.add_batched_meshes_simple(
@@ -79,22 +79,23 @@ class PersonView:
             f"{name}/left_hand_state", "", anchor="bottom-center", font_screen_scale=1.3
         )
 
-    def draw(self, skeleton: Skeleton | None, side: Side) -> None:
-        """Show a person, or nobody."""
+    def draw(self, skeleton: Skeleton | None, side: Side, watched: bool) -> None:
+        """Show a person, or nobody; the hand speaks only while somebody listens."""
         self._root.visible = skeleton is not None
+        self._label.visible = watched
         if skeleton is None:
             self._placement = None
-        if skeleton is None or skeleton is self._drawn:
+        if skeleton is None or (skeleton, watched) == self._drawn:
             return
         if self._placement is None or self._placement.body_id != skeleton.body_id:
             self._placement = Placement.of(skeleton, side)
-        self._drawn = skeleton
+        self._drawn = skeleton, watched
         points = self._placement.place(skeleton.positions)
         self._joints.batched_positions = points.astype(np.float32)
         self._joints.batched_colors = joint_colors(skeleton)
         self._bones.points = points[np.array(BONES)]
         hand, state = points[Joint.HAND_LEFT], skeleton.left_hand.state
-        self._hand.position, self._hand.color = hand, HAND[state]
+        self._hand.position, self._hand.color = hand, HAND[state] if watched else UNSEEN_HAND
         self._label.position = hand + ABOVE
         self._label.text = hand_words(state)
 

@@ -13,7 +13,8 @@ from studio.panels import markup
 from studio.panels.palette import ENVELOPE, GHOST, MEAN, NETWORK, ROBOT, css
 from studio.panels.readiness import fitting
 
-HEIGHT = 148  # [px] of a plot
+HEIGHT = 118  # [px] of a plot
+SMALLEST_RANGE, ROUND = 15.0, 5.0  # [deg] of the angle's axis
 _NEW_POINTS = 6  # ticks of playing between two updates: 5 Hz
 
 
@@ -71,14 +72,21 @@ class EvidencePanel:
         for column, joint in enumerate(curves.joints):
             data, title = curves.of_joint(column), f"{joint} [deg] over time [s]"
             if column < len(self._plots):
-                self._plots[column].data, self._plots[column].title = data, title
+                plot = self._plots[column]
+                plot.data, plot.title, plot.scales = data, title, _scales(data)
             else:
                 self._plots.append(self._plot(data, title))
 
     def _plot(self, data: tuple[FloatArray, ...], title: str) -> viser.GuiUplotHandle:
         with self._tab:
             return self._gui.add_uplot(
-                data, _SERIES, title=title, bands=_BANDS, legend={"show": False}, height=HEIGHT
+                data,
+                _SERIES,
+                title=title,
+                bands=_BANDS,
+                scales=_scales(data),
+                legend={"show": False},
+                height=HEIGHT,
             )
 
 
@@ -139,6 +147,19 @@ def _robot(
     if now.mode is Mode.PLAYING and now.alone and trace.times:
         return np.degrees(trace.at(stamps)[:, columns])
     return nothing
+
+
+def axis_range(values: FloatArray) -> tuple[float, float]:
+    """Return round bounds [deg] about all that is known, wide enough not to make much of little."""
+    lowest, highest = float(np.nanmin(values)), float(np.nanmax(values))
+    short = max(0.0, SMALLEST_RANGE - (highest - lowest)) / 2.0
+    lower, upper = (lowest - short) / ROUND, (highest + short) / ROUND
+    return ROUND * float(np.floor(lower)), ROUND * float(np.ceil(upper))
+
+
+def _scales(data: tuple[FloatArray, ...]) -> dict[str, viser.uplot.Scale]:
+    curves = np.concatenate(data[1:])
+    return {"x": viser.uplot.Scale(time=False), "y": viser.uplot.Scale(range=axis_range(curves))}
 
 
 def _line(label: str, stroke: str, width: float, dash: tuple[int, ...] = ()) -> viser.uplot.Series:

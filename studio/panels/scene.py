@@ -57,7 +57,7 @@ class SceneView:
             self._robot.draw(now.world.joint_positions)
         if self._ghost is not None:
             self._ghost.draw(now.ghost, _ghost_side(now))
-        self._person.draw(now.skeleton, now.side)
+        self._person.draw(now.skeleton, now.side, watched=now.gate is not None)
         self._trace(now)
 
     def _load(self) -> None:
@@ -114,7 +114,7 @@ class SceneView:
 def _set_the_stage(server: viser.ViserServer) -> None:
     """Set camera, light, backdrop and floor."""
     camera = server.initial_camera
-    camera.position, camera.look_at = (3.95, 0.75, 2.0), (0.3, -0.35, 0.82)
+    camera.position, camera.look_at = (3.9, 0.55, 2.0), (0.3, -0.42, 0.80)
     camera.fov = math.radians(42.0)
     scene = server.scene
     scene.configure_environment_map("studio", environment_intensity=0.25)

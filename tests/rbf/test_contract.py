@@ -1,5 +1,4 @@
 import doctest
-import pickle
 import warnings
 
 import numpy as np
@@ -83,12 +82,6 @@ def test_scikit_learns_tools_accept_the_learners(demonstrations, pool):
 @pytest.mark.parametrize("learner", LEARNERS)
 def test_settings_are_judged_in_fit_only(learner):
     type(learner)(**dict.fromkeys(learner.get_params(), object()))  # raises nothing
-
-
-def test_learners_travel_between_processes():
-    model = RBFRegressor(5).fit(INDEX, np.sin(INDEX))
-    copy = pickle.loads(pickle.dumps(model))  # as joblib does; files never hold pickles
-    np.testing.assert_array_equal(copy.predict(INDEX), model.predict(INDEX))
 
 
 @pytest.mark.parametrize("module", [studio.rbf.regressor, studio.rbf.newrb])

@@ -39,8 +39,8 @@ class Phase:
 
 
 REST = ArmPose(-50.0, 60.0, -60.0, 30.0)
-READY = ArmPose(20.0, 45.0, -45.0, 15.0)
-SWEPT = ArmPose(20.0, -20.0, -45.0, -50.0)
+READY = ArmPose(20.0, 45.0, -48.0, 15.0)
+SWEPT = ArmPose(20.0, -20.0, -48.0, -50.0)
 
 
 def demonstrate(
