@@ -32,7 +32,7 @@ Interpolation = Literal["even", "random"]
 
 @dataclass(frozen=True)
 class Serve:
-    """Open the studio in the browser (what plain ``studio`` does)."""
+    """Open the studio in the browser (what plain `studio` does)."""
 
     host: str = "127.0.0.1"
     """Address to listen on. Anything but loopback lets others in, without a password."""
@@ -65,8 +65,8 @@ class Demo:
     learner: Learner = "rbf"
     """rbf: Eq. 13 and a truncated SVD for Eq. 14. newrb: MATLAB's greedy network, spread 1."""
     mapping: Mapping = "exact"
-    """exact: all four joints. paper: s0, s1, e1 with e0 = 0, so 142 x 3; the forearm's direction is
-    then off by 48 degrees in the median of real recordings."""
+    """exact: all four joints. paper: s0, s1, e1 with e0 = 0, so 142 x 3; the forearm is then off by
+    48 degrees (median of real recordings)."""
     seed: int = 0
     """Seed of the demonstrator; the same seed gives the same numbers."""
     interpolation: Interpolation = "even"
@@ -111,8 +111,8 @@ class Teach:
     arm: Literal["left", "right"] = "left"
     """The arm that is followed. The gate is always the left hand's."""
     mapping: Mapping = "exact"
-    """exact: all four joints. paper: s0, s1, e1 with e0 = 0; the forearm's direction is then off by
-    48 degrees in the median of real recordings."""
+    """exact: all four joints. paper: s0, s1, e1 with e0 = 0; the forearm is then off by 48 degrees
+    (median of real recordings)."""
     gate: Literal["sequence", "open"] = "sequence"
     """sequence: the left hand signs Lasso, Open, Closed. open: follow whoever is in sight."""
     neurons: int = 50

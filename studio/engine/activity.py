@@ -73,7 +73,7 @@ class Follow:
 
     def __init__(self, stream: SkeletonRecording, pipeline: Pipeline, path: Path | None) -> None:
         self.time, self.duration = 0.0, stream.seconds
-        self.info = RecordingInfo(pipeline.side, pipeline.mapping, stream.path)
+        self.info = RecordingInfo.of(pipeline, stream)
         self.samples: list[Sample] = []
         self.skeleton: Skeleton | None = None  # the newest one
         self.writer = None if path is None else RecordingWriter(path, self.info)

@@ -49,6 +49,6 @@ def follow_steps(stream: SkeletonRecording, pipeline: Pipeline, world: World) ->
 
 def follow(stream: SkeletonRecording, pipeline: Pipeline) -> Recording:
     """Follow a whole stream in a fresh world and return the recording of it."""
-    info = RecordingInfo(pipeline.side, pipeline.mapping, str(stream.path))
+    info = RecordingInfo.of(pipeline, stream)
     with start_world(pipeline.side, pipeline.mapping) as world:
         return Recording(info, tuple(follow_steps(stream, pipeline, world)))

@@ -19,6 +19,7 @@ from typing import Literal
 from studio.engine.skeleton import HandState, Side, Skeleton
 
 GateMode = Literal["sequence", "open"]
+GATE_MODES: tuple[GateMode, GateMode] = ("sequence", "open")
 SEQUENCE = (HandState.LASSO, HandState.OPEN, HandState.CLOSED)
 UNSEEN = (HandState.UNKNOWN, HandState.NOT_TRACKED)
 NANOSECONDS = 1_000_000_000

@@ -10,6 +10,7 @@ import io
 import json
 import struct
 from collections.abc import Iterable, Iterator, Mapping
+from importlib.metadata import version
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Final
@@ -22,6 +23,7 @@ from mcap.writer import CompressionType, Writer
 
 import studio
 from studio.engine.errors import FileError, StudioError
+from studio.engine.gate import GATE_MODES
 from studio.engine.mcap_messages import CHANNELS, SCHEMAS, messages_of, sample_of
 from studio.engine.recording import Recording, RecordingInfo, Sample
 from studio.engine.retarget import MAPPINGS
@@ -61,10 +63,12 @@ class RecordingWriter:
             "studio",
             {
                 "schema_version": SCHEMA_VERSION,
-                "studio_version": studio.__version__,
                 "side": info.side,
                 "mapping": info.mapping,
+                "gate": info.gate,
                 "source": info.source,
+                "studio": studio.__version__,
+                **{name: version(name) for name in ("numpy", "pybullet", "mcap")},
             },
         )
         self._channels = {
@@ -217,15 +221,16 @@ def _samples(messages: Iterable[tuple[str, Any]]) -> Iterator[Sample]:
 
 
 def _info(path: Path, metadata: Mapping[str, str]) -> RecordingInfo:
-    version = metadata.get("schema_version")
-    if version != SCHEMA_VERSION:
-        found = "none" if version is None else f"version {version!r:.20}"
+    schema = metadata.get("schema_version")
+    if schema != SCHEMA_VERSION:
+        found = "none" if schema is None else f"version {schema!r:.20}"
         raise FileError(
             f"{path}: not a recording of this studio: expected its metadata of version "
             f"{SCHEMA_VERSION}, found {found}"
         )
     side = next((s for s in SIDES if s == metadata.get("side")), None)
     mapping = next((m for m in MAPPINGS if m == metadata.get("mapping")), None)
-    if side is None or mapping is None:
-        raise FileError(f"{path}: its metadata name no arm or mapping that the studio knows")
-    return RecordingInfo(side, mapping, metadata.get("source", "unknown"))
+    gate = next((g for g in GATE_MODES if g == metadata.get("gate")), None)
+    if side is None or mapping is None or gate is None:
+        raise FileError(f"{path}: its metadata name no arm, mapping or gate that the studio knows")
+    return RecordingInfo(side, mapping, gate, metadata.get("source", "unknown"))

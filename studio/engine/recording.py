@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass
 
-from studio.engine.gate import GateStatus
-from studio.engine.pipeline import Outcome
+from studio.engine.gate import GateMode, GateStatus
+from studio.engine.pipeline import Outcome, Pipeline
 from studio.engine.retarget import Angles, Mapping
 from studio.engine.skeleton import FloatArray, Side, Skeleton
+from studio.engine.sources.recording import SkeletonRecording
 from studio.engine.world import WorldState
 
 
@@ -45,7 +46,14 @@ class RecordingInfo:
 
     side: Side
     mapping: Mapping
-    source: str  # where its skeletons came from
+    gate: GateMode
+    source: str  # where its skeletons came from; of the demonstrator, with its seed
+
+    @classmethod
+    def of(cls, pipeline: Pipeline, stream: SkeletonRecording) -> "RecordingInfo":
+        """Return what a recording of a stream followed through a pipeline says of itself."""
+        source = f"{stream.path} ({stream.format})"
+        return cls(pipeline.side, pipeline.mapping, pipeline.gate.mode, source)
 
 
 @dataclass(frozen=True, eq=False)

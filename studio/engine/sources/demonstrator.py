@@ -65,7 +65,9 @@ def demonstrate(
     ends = np.cumsum([phase.seconds for phase in phases])
     hands = [phases[min(int(np.searchsorted(ends, t)), len(phases) - 1)].hand for t in times]
     return from_skeletons(
-        sense(positions, hands, rng), path=f"demonstrator:{take}", format="demonstrator"
+        sense(positions, hands, rng),
+        path=f"demonstrator:{take}",
+        format=f"demonstrator, seed {seed}",
     )
 
 
