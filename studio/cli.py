@@ -128,6 +128,8 @@ class Teach:
 
     def run(self) -> int:
         """Teach, learn, reproduce."""
+        if not self.files:
+            raise StudioError("teach from which files? Give one or more: studio teach FILE...")
         learner = LearnerSettings(self.learner, self.neurons)
         setup = Setup(self.arm, self.mapping, self.gate, learner, self.interpolation)
         return _experiment(self.files, setup, self.json, self.save)
@@ -175,6 +177,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     )
     try:
         status = command.run()
+        sys.stdout.flush()
+    except BrokenPipeError:  # whoever reads has seen enough, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left to flush goes nowhere
+        status = 1
     except StudioError as error:
         print(f"studio: {error}", file=sys.stderr)
         if getattr(command, "json", False):

@@ -129,8 +129,42 @@ def test_help_reads(command: tuple[str, ...]) -> None:
     assert "usage: studio" in done.stdout
 
 
+def test_a_reader_that_leaves_gives_no_traceback() -> None:
+    """As ``studio inspect FILE | head`` does, here with a reader that leaves at once."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    with os.fdopen(writing, "w") as pipe:
+        done = subprocess.run(
+            [sys.executable, "-m", "studio", "inspect", samples_folder() / "never-arms.jsonl"],
+            stdout=pipe,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=ROOT,
+            check=False,
+        )
+    assert done.stderr == ""
+
+
+def test_teaching_from_no_file_says_what_is_missing() -> None:
+    done = studio("teach")
+    assert done.returncode == 1
+    assert "studio teach FILE" in done.stderr
+
+
+def test_an_open_gate_is_not_what_is_missing_where_nobody_is_seen(tmp_path: Path) -> None:
+    (tmp_path / "empty.json").write_text('{"version": "0.3", "frames": [{"bodies": []}]}')
+    done = studio("teach", tmp_path / "empty.json", "--gate", "open")
+    assert done.returncode == 1
+    assert "nobody in sight" in done.stderr
+    assert "--gate open" not in done.stderr
+
+
 def test_impossible_options_are_refused_in_words() -> None:
-    for command in (("demo", "--headless", "--neurons", "0"), ("demo", "--demonstrations", "0")):
+    for command in (
+        ("demo", "--headless", "--neurons", "0"),
+        ("demo", "--demonstrations", "0"),
+        ("demo", "--headless", "--seed", "-1"),
+    ):
         done = studio(*command)
         assert done.returncode == 1
         assert command[-2].lstrip("-") in done.stderr

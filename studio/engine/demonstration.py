@@ -64,14 +64,18 @@ def armed_stretches(recording: Recording) -> list[tuple[int, int]]:
 
 
 def demonstrations_of(recording: Recording, name: str) -> list[Demonstration]:
-    """Return a demonstration for every armed stretch of at least `SHORTEST` seconds."""
+    """Return a demonstration for every armed stretch of at least `SHORTEST` seconds.
+
+    One in which the arm was never seen is none: nothing moved in it.
+    """
     info = recording.info
     columns = [DRIVEN_JOINTS.index(joint) for joint in LEARNED_JOINTS[info.mapping]]
     found: list[Demonstration] = []
     for first, last in armed_stretches(recording):
         stretch = recording.samples[first : last + 1]
         times = np.array([sample.time for sample in stretch])
-        if times[-1] - times[0] >= SHORTEST:
+        followed = any(sample.wanted is not None for sample in stretch)
+        if followed and times[-1] - times[0] >= SHORTEST:
             sent = np.array([sample.sent[columns] for sample in stretch])
             label = name if not found else f"{name} ({len(found) + 1})"
             found.append(

@@ -15,7 +15,7 @@ from studio.engine.demonstration import (
 )
 from studio.engine.errors import FileError, NothingTaughtError
 from studio.engine.follow import follow, ticks_of
-from studio.engine.gate import GateMode
+from studio.engine.gate import NOBODY, GateMode
 from studio.engine.mcap_file import MCAP_FORMAT, is_mcap, read_recording
 from studio.engine.pipeline import Pipeline
 from studio.engine.recording import Recording
@@ -175,8 +175,12 @@ def _why_nothing(files: Sequence[FileOutcome]) -> str:
     for file in files:
         why, _ = max(file.held.items(), key=itemgetter(1), default=("no frames", 0))
         if file.armed:
-            why = f"no armed stretch of {SHORTEST:g} s or more, {file.armed_frames} frames in all"
-        elif not file.has_hand_states:
+            refused = f"; {why}" if file.held else ""
+            why = (
+                f"no armed stretch of {SHORTEST:g} s or more in which the arm was seen, "
+                f"{file.armed_frames} frames in all{refused}"
+            )
+        elif not file.has_hand_states and set(file.held) != {NOBODY}:
             why = "tells no hand states, so the gate cannot open; open it yourself by --gate open"
         reasons.append(f"{file.path}: {why}")
     return "nothing was taught: " + "; ".join(reasons)

@@ -22,6 +22,7 @@ GateMode = Literal["sequence", "open"]
 GATE_MODES: tuple[GateMode, GateMode] = ("sequence", "open")
 SEQUENCE = (HandState.LASSO, HandState.OPEN, HandState.CLOSED)
 UNSEEN = (HandState.UNKNOWN, HandState.NOT_TRACKED)
+NOBODY = "nobody in sight"
 NANOSECONDS = 1_000_000_000
 LONGEST_SIGHT = NANOSECONDS // 10  # of a state between two frames: a stalled sensor saw nothing
 
@@ -77,12 +78,13 @@ class Gate:
         """
         now = round(time * NANOSECONDS)
         memory = memory or GateMemory(last_time=now)
-        if skeleton is None:
-            if now - memory.last_time > _ns(self.body_lost_after) and memory.body_id is not None:
-                memory = GateMemory(last_time=now, why="nobody in sight")
-            return memory, self._status(memory, now)
-        if memory.body_id not in (None, skeleton.body_id):
+        if skeleton is not None and memory.body_id not in (None, skeleton.body_id):
             memory = GateMemory(last_time=now, why="another person took over")
+        unseen = now - memory.last_time  # also where a stream leaves out frames with nobody in them
+        if unseen > _ns(self.body_lost_after) and memory.body_id is not None:
+            memory = GateMemory(last_time=now, why=NOBODY)
+        if skeleton is None:
+            return memory, self._status(memory, now)
         memory = self._observe(memory, skeleton, now)
         if self.mode == "sequence":
             memory = self._disarm(memory, now) if memory.lit == len(SEQUENCE) else memory
@@ -141,7 +143,7 @@ class Gate:
     def _status(self, memory: GateMemory, now: int) -> GateStatus:
         if self.mode == "open":
             lit = len(SEQUENCE) if memory.body_id is not None else 0
-            reason = "" if lit else memory.why or "nobody in sight"
+            reason = "" if lit else memory.why or NOBODY
             return GateStatus(bool(lit), lit, reason, reason, memory.last_state, 0.0, 0.0)
         armed = memory.lit == len(SEQUENCE)
         hand = f"{self.hand} hand"
@@ -150,7 +152,7 @@ class Gate:
         if armed:
             reason, detail = "", "armed: hold Lasso to disarm"
         elif memory.body_id is None:
-            reason = detail = "nobody in sight"
+            reason = detail = NOBODY
         else:
             awaited = SEQUENCE[memory.lit]
             reason = f"waiting for {awaited.value.capitalize()} of the {hand}"

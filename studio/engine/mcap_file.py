@@ -34,6 +34,7 @@ SCHEMA_VERSION = "1"
 MCAP_FORMAT = f"studio mcap {SCHEMA_VERSION}"
 # A tick is at least 1.2 kB, so that a chunk fills, and reaches the file, at least once a second.
 CHUNK_BYTES = 24 * 1024
+LONGEST_TICK = 1.0  # [s] from one to the next; a wrong stamp must not keep the robot busy for years
 LARGEST_FILE = 1 << 30  # [bytes] of a recording; ten hours or so
 LARGEST_CHUNK = 64 << 20  # [bytes] unpacked: ours are a thousandth of it
 
@@ -213,11 +214,15 @@ class _Messages:
 
 def _samples(messages: Iterable[tuple[str, Any]]) -> Iterator[Sample]:
     tick: dict[str, Any] = {}
+    before: float | None = None
     for topic, message in messages:
         tick[topic] = message
         if topic == CHANNELS[-1]:
-            yield sample_of(tick)
-            tick = {}
+            sample = sample_of(tick)
+            if before is not None and not 0.0 < sample.time - before <= LONGEST_TICK:
+                raise StudioError(f"a tick at {sample.time:g} s follows one at {before:g} s")
+            yield sample
+            before, tick = sample.time, {}
 
 
 def _info(path: Path, metadata: Mapping[str, str]) -> RecordingInfo:

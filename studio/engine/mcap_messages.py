@@ -1,5 +1,6 @@
 """A recording's ticks as JSON messages: what each channel holds, and the way there and back."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -75,7 +76,7 @@ def sample_of(tick: Mapping[str, Mapping[str, Any]]) -> Sample:
     if tuple(joints["name"]) != JOINT_NAMES:
         raise StudioError("the joints are not Baxter's")
     seen = tick.get("/skeleton")
-    sent, wanted = _numbers(command["sent"], 4), command["wanted"]
+    sent, wanted = _angles(command["sent"]), command["wanted"]
     return Sample(
         time=float(_numbers([world["time"]], 1)[0]),
         skeleton=None if seen is None else skeleton_from_dict(dict(seen)),
@@ -89,7 +90,7 @@ def sample_of(tick: Mapping[str, Mapping[str, Any]]) -> Sample:
             needed=float(gate["needed"]),
         ),
         held=str(command["held"]),
-        wanted=None if wanted is None else _four(_numbers(wanted, 4)),
+        wanted=None if wanted is None else _four(_angles(wanted)),
         sent=sent,
         limited=bool(command["limited"]),
         world=WorldState(
@@ -109,6 +110,13 @@ def _numbers(values: Sequence[float], count: int | None = None) -> FloatArray:
     if array.ndim != 1 or not np.isfinite(array).all() or count not in (None, len(array)):
         raise StudioError(f"expected {count or 'some'} finite numbers, found {values!r:.60}")
     return array
+
+
+def _angles(values: Sequence[float]) -> FloatArray:
+    angles = _numbers(values, len(DRIVEN_JOINTS))
+    if np.abs(angles).max() > 2.0 * math.pi:  # no joint turns that far
+        raise StudioError(f"expected angles in radians, found {values!r:.60}")
+    return angles
 
 
 def _four(values: FloatArray) -> Angles:

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from studio.engine.demonstration import SAMPLES
-from studio.engine.experiment import Experiment, FileOutcome
+from studio.engine.experiment import Experiment, FileOutcome, Setup
 from studio.engine.measures import Deviation
+from studio.engine.retarget import LEARNED_JOINTS
 from studio.engine.skeleton import FloatArray
 from studio.engine.teaching import Lesson, Replay, Reproduction
 
@@ -17,10 +18,26 @@ def as_json(experiment: Experiment) -> dict[str, Any]:
     """Return the object that ``--json`` prints; angles of errors in degrees, MSE in rad²."""
     files = [_file(file) for file in experiment.files]
     if experiment.lesson is None or experiment.reproduction is None:
-        return {"files": files, "error": experiment.error}
+        return {"files": files} | _nothing(experiment.setup) | {"error": experiment.error}
     return {"files": files} | as_results(
         experiment.lesson, experiment.reproduction, experiment.replays
     )
+
+
+def _nothing(setup: Setup) -> dict[str, Any]:
+    """Return the same keys as `as_results` where nothing was taught: null for what there is not."""
+    return {
+        "arm": setup.side,
+        "mapping": setup.mapping,
+        "joints": [f"{setup.side}_{joint}" for joint in LEARNED_JOINTS[setup.mapping]],
+        "samples": SAMPLES,
+        "learner": {"name": setup.learner.name, "neurons": setup.learner.neurons},
+        "mse": None,
+        "floor": None,
+        "floor_note": "nothing was taught",
+        "reproduction": None,
+        "demonstrations": [],
+    }
 
 
 def as_results(

@@ -66,7 +66,7 @@ def arm_angles(
 def solve_arm(upper_arm: Vector, forearm: Vector, side: Side, mapping: Mapping) -> Angles:
     """Do as `arm_angles` does, on unit vectors and without checks: the live loop's version."""
     u, f = _into_mount(upper_arm, side), _into_mount(forearm, side)
-    normal = unit(cross(u, f)) or _any_normal(u)
+    normal = _plane_normal(u, f)
     opening = math.atan2(norm(cross(u, f)), dot(u, f))
     if mapping == "paper":
         s0, s1 = _shoulder(u)
@@ -112,6 +112,15 @@ def _into_mount(vector: Vector, side: Side) -> Vector:
     cosine, sine = math.cos(_MOUNT_YAW[side]), math.sin(_MOUNT_YAW[side])
     x, y, z = vector
     return (cosine * x + sine * y, -sine * x + cosine * y, z)
+
+
+def _plane_normal(u: Vector, f: Vector) -> Vector:
+    """Return the unit normal of the arm's plane; of a straight arm, of any plane through it."""
+    normal = unit(cross(u, f)) or _any_normal(u)
+    # Of a nearly straight arm the cross product is mostly rounding, and may lean towards the arm.
+    lean = dot(normal, u)
+    across = (normal[0] - lean * u[0], normal[1] - lean * u[1], normal[2] - lean * u[2])
+    return unit(across) or _any_normal(u)
 
 
 def _any_normal(axis: Vector) -> Vector:

@@ -1,6 +1,7 @@
 """The whole paper: taught, learned, reproduced, and measured; and where nothing can be taught."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +16,10 @@ from studio.engine.performance import perform
 from studio.engine.pipeline import Pipeline
 from studio.engine.report import as_json, as_text
 from studio.engine.robot import load_robot
-from studio.engine.skeleton import HandState
+from studio.engine.skeleton import HandState, Joint, Tracking, all_tracked
 from studio.engine.sources import write_skeletons
 from studio.engine.sources.demonstrator import demonstrate
+from studio.engine.sources.recording import from_skeletons
 from studio.engine.teaching import LearnerSettings, learn
 
 TAKES = [demonstrate(0, take) for take in (1, 2, 3, 4)]
@@ -100,12 +102,24 @@ def test_files_and_recordings_teach_the_same(tmp_path: Path) -> None:
 def test_where_nothing_arms_the_files_and_the_reason_are_told() -> None:
     stays = demonstrate(0, 1, (HandState.OPEN, HandState.CLOSED))
     found = as_json(run_experiment([stays], Setup()))
-    assert set(found) == {"files", "error"}
+    taught = as_json(run_experiment(TAKES[:1], Setup()))
+    assert set(found) == {*taught, "error"}  # the same object, null for what there is not
+    assert found["joints"] == taught["joints"]
+    assert found["mse"] is found["reproduction"] is None
     assert found["files"][0]["armed_frames"] == 0
     assert "waiting for Lasso" in found["error"]
     followed = run_experiment([stays], Setup(gate="open"))
     assert followed.files[0].armed_frames == followed.files[0].frames
     assert followed.reproduction is not None
+
+
+def test_an_arm_that_is_never_seen_teaches_nothing() -> None:
+    """An open gate alone moves nothing: 40 frames of a person whose wrist is lost."""
+    lost = all_tracked()
+    lost[Joint.WRIST_LEFT] = Tracking.NOT_TRACKED
+    unseen = [replace(skeleton, tracking=lost) for skeleton in TAKES[0][:40]]
+    found = run_experiment([from_skeletons(unseen, "unseen", "test")], Setup(gate="open"))
+    assert "left wrist not tracked" in found.error
 
 
 def test_the_right_arm_mirrors_the_scene() -> None:

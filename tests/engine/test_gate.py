@@ -126,6 +126,18 @@ def test_a_lost_body_disarms_after_half_a_second() -> None:
     assert status.reason == "nobody in sight"
 
 
+def test_a_body_that_a_stream_leaves_out_is_lost_too() -> None:
+    """Stamps that jump by more than half a second, without frames that show nobody."""
+    gate, memory = Gate(), None
+    for i, state in enumerate(ARMING):
+        memory, status = gate.step(memory, person(i / 30, hand=state), i / 30)
+    assert status.armed
+    later = len(ARMING) / 30 + 0.5
+    _, status = gate.step(memory, person(later, hand=CLOSED), later)
+    assert not status.armed
+    assert "nobody in sight" in status.detail
+
+
 def test_another_person_does_not_inherit_the_gate() -> None:
     gate, memory = Gate(), None
     for i, state in enumerate(ARMING):

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import textwrap
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -142,6 +143,23 @@ def test_what_is_no_recording_is_refused_by_name(tmp_path: Path) -> None:
     assert not is_mcap(tmp_path / "missing")
     with pytest.raises(FileError, match="missing"):
         read_recording(tmp_path / "missing")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda sample: {"sent": sample.sent + 100.0},
+        lambda sample: {"wanted": (1e300, 0.0, 0.0, 0.0)},
+        lambda sample: {"time": 1e6 * sample.time},
+        lambda sample: {"time": 1.0},
+    ],
+    ids=["degrees", "huge", "years", "still"],
+)
+def test_a_whole_file_of_impossible_numbers_is_refused(recording, tmp_path: Path, change) -> None:
+    samples = [replace(sample, **change(sample)) for sample in recording.samples[:3]]
+    write_recording(tmp_path / "bad.mcap", Recording(recording.info, tuple(samples)))
+    with pytest.raises(FileError, match=r"bad\.mcap"):
+        read_recording(tmp_path / "bad.mcap")
 
 
 def test_kill_while_recording_loses_a_second_at_most(tmp_path: Path) -> None:

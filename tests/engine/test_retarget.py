@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studio.engine.errors import StudioError
+from studio.engine.performance import whole_body
 from studio.engine.resources import resource_root
 from studio.engine.retarget import DRIVEN_JOINTS, arm_angles, solve_elbow
 from studio.engine.robot import load_robot
@@ -70,6 +71,23 @@ def test_exact_mapping_points_the_joint_centers_where_the_person_points(side: Si
         reached = bullet(side, arm_angles(*wanted, side))
         worst = max(worst, *(np.abs(a - b).max() for a, b in zip(wanted, reached, strict=True)))
     assert worst < 1e-6
+
+
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize("bend", [1e-9, 1e-11, 2e-12, 1e-13, 0.0])
+def test_an_arm_that_is_nearly_straight_or_folded_points_as_well(side: Side, bend: float) -> None:
+    """Where the plane of the arm is mostly rounding; by our own kinematics, which are finer."""
+    rng = np.random.default_rng(4)
+    u = np.array([unit(rng.normal(size=3)) for _ in range(200)])
+    f = [unit(rng.choice([-1.0, 1.0]) * v + bend * rng.normal(size=3)) for v in u]
+    rows = np.array([arm_angles(*pair, side) for pair in zip(u, f, strict=True)])
+    body = whole_body(rows, side, DRIVEN_JOINTS)
+    shoulder, elbow, wrist = (
+        load_robot().forward_kinematics(f"{side}_{link}", body)[:, :3, 3]
+        for link in ("lower_shoulder", "lower_elbow", "lower_forearm")
+    )
+    for bone, wanted in ((elbow - shoulder, u), (wrist - elbow, f)):
+        assert np.abs(bone / np.linalg.norm(bone, axis=1, keepdims=True) - wanted).max() < 1e-9
 
 
 @pytest.mark.parametrize("side", SIDES)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from studio.engine.errors import StudioError
 from studio.engine.skeleton import FRAME_RATE, JOINT_COUNT, FloatArray, HandState, Joint
 from studio.engine.sources.recording import SkeletonRecording, from_skeletons
 from studio.engine.sources.sensor_faults import sense
@@ -56,7 +57,14 @@ def demonstrate(
         Which performance, counted from 1.
     signs : sequence of HandState
         What the left hand signs before the arm moves; anything but Lasso, Open, Closed never arms.
+
+    Raises
+    ------
+    StudioError
+        Where seed or take is below zero.
     """
+    if seed < 0 or take < 0:
+        raise StudioError(f"the demonstrator's seed and take are 0 or more, not {seed} and {take}")
     rng = np.random.default_rng([seed, take])
     phases = _vary(_script(signs), rng)
     times = np.arange(0.0, sum(phase.seconds for phase in phases), 1.0 / FRAME_RATE)

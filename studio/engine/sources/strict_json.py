@@ -20,7 +20,8 @@ def parse_json(text: str) -> object:
     try:
         value: object = json.loads(text)
     except json.JSONDecodeError as error:
-        at_end = error.pos >= len(text.rstrip())
+        # A text that ends within quotes is told by where they open.
+        at_end = error.pos >= len(text.rstrip()) or error.msg.startswith("Unterminated string")
         cut = " (the text ends there: the file seems to be cut off)" if at_end else ""
         raise StudioError(
             f"line {error.lineno}, column {error.colno}: expected valid JSON, "

@@ -115,6 +115,7 @@ def test_one_id_twice_in_a_frame_is_an_error(made):
         ('{"version": "0.3", "frames": ' + "9" * 5000 + "}", "numbers of usual length"),
         ('{"version": "0.3",\n "frames": [}', "line 2, column 13: expected valid JSON, found '}'"),
         ('{"version": "0.3", "frames": [', "cut off"),
+        ('{"version": "0.3", "frames": [{"bod', "cut off"),
     ],
 )
 def test_broken_json_is_named_with_its_place(text, words):
