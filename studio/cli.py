@@ -184,7 +184,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except StudioError as error:
         print(f"studio: {error}", file=sys.stderr)
         if getattr(command, "json", False):
-            print(_json({"files": [], "error": str(error)}))
+            files: dict[str, Any] = {} if isinstance(command, Inspect) else {"files": []}
+            print(_json(files | {"error": str(error)}))
         status = 1
     except KeyboardInterrupt:
         status = 130

@@ -13,7 +13,7 @@ from studio.engine.demonstration import (
     Interpolation,
     demonstrations_of,
 )
-from studio.engine.errors import FileError, NothingTaughtError
+from studio.engine.errors import NothingTaughtError
 from studio.engine.follow import follow, ticks_of
 from studio.engine.gate import NOBODY, GateMode
 from studio.engine.mcap_file import MCAP_FORMAT, is_mcap, read_recording
@@ -127,23 +127,28 @@ def run_experiment(
 
 
 def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, FileOutcome]:
-    if isinstance(given, Path) and is_mcap(given):
+    """Return what was sent: as it was recorded, or by following the skeletons now.
+
+    A recording that was made with another arm, mapping or gate is followed anew, from its raw
+    skeletons.
+    """
+    warning = ""
+    if isinstance(given, SkeletonRecording):
+        stream = given
+    elif not is_mcap(given):
+        stream = read_skeletons(given)
+    else:
         recording = read_recording(given)
-        made_with = (recording.info.side, recording.info.mapping)
-        if made_with != (setup.side, setup.mapping):
-            raise FileError(
-                f"{given}: recorded with the {made_with[0]} arm and the {made_with[1]} mapping; "
-                f"give --arm {made_with[0]} --mapping {made_with[1]}"
-            )
-        ticks = list(range(len(recording.samples)))
-        return recording, _outcome(str(given), MCAP_FORMAT, ticks, recording)
-    stream = read_skeletons(given) if isinstance(given, Path) else given
-    recording = follow(
-        stream, Pipeline.for_robot(load_robot(), setup.side, setup.mapping, setup.gate)
-    )
-    ticks = ticks_of(stream.frame_times).tolist()
-    outcome = _outcome(stream.path, stream.format, ticks, recording)
-    return recording, replace(outcome, has_hand_states=stream.has_hand_states)
+        info = recording.info
+        if (info.side, info.mapping, info.gate) == (setup.side, setup.mapping, setup.gate):
+            ticks = list(range(len(recording.samples)))
+            return recording, _outcome(str(given), MCAP_FORMAT, ticks, recording)
+        warning = recording.warning
+        stream = recording.skeletons(str(given), f"{MCAP_FORMAT}, its skeletons followed anew")
+    pipeline = Pipeline.for_robot(load_robot(), setup.side, setup.mapping, setup.gate)
+    followed = replace(follow(stream, pipeline), warning=warning)
+    outcome = _outcome(stream.path, stream.format, ticks_of(stream.frame_times).tolist(), followed)
+    return followed, replace(outcome, has_hand_states=stream.has_hand_states)
 
 
 def _outcome(path: str, name: str, ticks: Sequence[int], recording: Recording) -> FileOutcome:

@@ -10,7 +10,7 @@ from studio.engine.mcap_file import MCAP_FORMAT, is_mcap, read_recording
 from studio.engine.problems import find_problems
 from studio.engine.skeleton import HandState, Side, Tracking
 from studio.engine.sources.files import read_skeletons
-from studio.engine.sources.recording import SkeletonRecording, from_skeletons
+from studio.engine.sources.recording import SkeletonRecording
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,7 @@ def inspect_file(path: str | os.PathLike[str], body: str | None = None) -> Inspe
 
 def _inspect_mcap(path: Path) -> Inspection:
     recording = read_recording(path)
-    seen = [sample.skeleton for sample in recording.samples if sample.skeleton is not None]
-    found = inspect_recording(from_skeletons(seen, str(path), MCAP_FORMAT))
+    found = inspect_recording(recording.skeletons(str(path), MCAP_FORMAT))
     if not recording.warning:
         return found
     return replace(found, problems=(recording.warning, *found.problems))

@@ -6,7 +6,7 @@ from studio.engine.gate import GateMode, GateStatus
 from studio.engine.pipeline import Outcome, Pipeline
 from studio.engine.retarget import Angles, Mapping
 from studio.engine.skeleton import FloatArray, Side, Skeleton
-from studio.engine.sources.recording import SkeletonRecording
+from studio.engine.sources.recording import SkeletonRecording, from_skeletons
 from studio.engine.world import WorldState
 
 
@@ -63,3 +63,8 @@ class Recording:
     info: RecordingInfo
     samples: tuple[Sample, ...]
     warning: str = ""  # what is missing of the file that it was read from
+
+    def skeletons(self, path: str, name: str) -> SkeletonRecording:
+        """Return the raw skeletons as a stream; ``path`` and ``name`` say where it is from."""
+        seen = [sample.skeleton for sample in self.samples if sample.skeleton is not None]
+        return from_skeletons(seen, path, name)

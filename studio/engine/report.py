@@ -118,9 +118,10 @@ def _file_line(file: FileOutcome) -> str:
 
 def _learner_line(lesson: Lesson) -> str:
     count, taught = lesson.settings.neurons, lesson.taught
+    shown = len(taught.demonstrations)
     return (
-        f"Learned by {lesson.settings.name} with {count} neurons from {len(taught.demonstrations)} "
-        f"demonstrations of {taught.duration:.1f} s, {SAMPLES} x {len(taught.joints)} each, "
+        f"Learned by {lesson.settings.name} with {count} neurons from {shown} "
+        f"demonstration{'s' * (shown != 1)} of {taught.duration:.1f} s, {SAMPLES} x {len(taught.joints)} each, "
         f"{taught.side} arm, {taught.mapping} mapping:"
     )
 

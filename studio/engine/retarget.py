@@ -130,7 +130,10 @@ def _any_normal(axis: Vector) -> Vector:
 
 
 def _direction(values: ArrayLike, name: str) -> Vector:
-    array = np.asarray(values, dtype=float)
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        array = np.empty(0)
     if array.shape != (3,) or not np.isfinite(array).all():
         raise StudioError(f"{name} must be three finite numbers, not {values!r}")
     direction = unit((float(array[0]), float(array[1]), float(array[2])))

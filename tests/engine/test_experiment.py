@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from studio.engine.demonstration import DemonstrationSet, demonstrations_of
-from studio.engine.errors import FileError, StudioError
+from studio.engine.errors import StudioError
 from studio.engine.experiment import Setup, run_experiment
 from studio.engine.follow import follow
 from studio.engine.mcap_file import write_recording
@@ -95,8 +95,11 @@ def test_files_and_recordings_teach_the_same(tmp_path: Path) -> None:
     write_recording(tmp_path / "take.mcap", kept[0])
     from_recording = run_experiment([tmp_path / "take.mcap"], Setup())
     assert np.array_equal(from_file.lesson.taught.rows, from_recording.lesson.taught.rows)
-    with pytest.raises(FileError, match="--mapping exact"):
-        run_experiment([tmp_path / "take.mcap"], Setup(mapping="paper"))
+    paper = Setup(mapping="paper", gate="open")
+    anew = run_experiment([tmp_path / "take.mcap"], paper)
+    assert "followed anew" in anew.files[0].format
+    again = run_experiment([tmp_path / "take.jsonl"], paper)
+    assert np.array_equal(anew.lesson.taught.rows, again.lesson.taught.rows)
 
 
 def test_where_nothing_arms_the_files_and_the_reason_are_told() -> None:
