@@ -7,12 +7,14 @@ import numpy as np
 
 from studio.engine.limits import Command
 from studio.engine.pipeline import Pipeline, ready_angles
-from studio.engine.retarget import DRIVEN_JOINTS, LEARNED_JOINTS, Mapping
+from studio.engine.retarget import DRIVEN_JOINTS, LEARNED_JOINTS, Angles, Mapping
 from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE, JOINT_NAMES, load_robot
 from studio.engine.skeleton import FloatArray, Side
 from studio.engine.world import Scene, World, WorldState
 
 SETTLE = 1.5  # [s] after the motion, in which a block that was pushed comes to rest
+# The arm that is not taught hangs beside the desk, out of everybody's way [rad].
+_HANGING: dict[Side, Angles] = {"left": (0.35, 1.0, 0.0, 0.5), "right": (-0.35, 1.0, 0.0, 0.5)}
 Trajectory = Callable[[float], FloatArray]  # time [s] -> (D,) [rad], the learned joints
 
 
@@ -48,9 +50,11 @@ class Performance:
 
 
 def start_world(side: Side, mapping: Mapping) -> World:
-    """Return a fresh world in which the arm waits in its ready pose."""
+    """Return a fresh world in which the arm waits in its ready pose, and the other one hangs."""
     ready = dict(zip(_names(side), ready_angles(side, mapping).tolist(), strict=True))
-    return World(Scene(arm=side), ready)
+    other: Side = "right" if side == "left" else "left"
+    hanging = dict(zip(_names(other), _HANGING[other], strict=True))
+    return World(Scene(arm=side), ready | hanging)
 
 
 def send(world: World, side: Side, sent: FloatArray) -> None:

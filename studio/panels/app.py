@@ -13,6 +13,7 @@ from studio.engine.snapshot import Snapshot
 from studio.panels.compare import ComparePanel
 from studio.panels.gate import GatePanel
 from studio.panels.learn import LearnPanel
+from studio.panels.meshes import FINE
 from studio.panels.palette import BRAND
 from studio.panels.plots import EvidencePanel
 from studio.panels.scene import SceneView
@@ -24,7 +25,7 @@ from studio.panels.uploads import Uploads
 TITLE = "Baxter's teaching studio"
 FRAME = 1.0 / 30.0  # [s] between two pictures of the scene
 PANEL_EVERY = 3  # pictures between two of the panels: 10 Hz
-STEPS_WIDTH, EVIDENCE_WIDTH = 360, 330  # [px]; at 1366 px half of the page is left for the scene
+STEPS_WIDTH, EVIDENCE_WIDTH = 372, 310  # [px]; at 1366 px half of the page is left for the scene
 
 _NO_MESHES = (
     "Baxter is drawn in simple shapes, since its meshes were not found: pip install "
@@ -33,16 +34,29 @@ _NO_MESHES = (
 
 
 class App:
-    """The page of a running loop. A context manager; `url` is where it is."""
+    """The page of a running loop. A context manager; `url` is where it is.
 
-    def __init__(self, loop: LiveLoop, host: str = "127.0.0.1", port: int = 8080) -> None:
+    Parameters
+    ----------
+    loop
+        A loop that runs, and goes on running for as long as the page is there.
+    host, port
+        Where to listen; the next free port is taken where this one is busy. Anything but loopback
+        lets others in, without a password.
+    detail
+        How fine Baxter is drawn [m]; 0.02 is plain, and ten times lighter for a browser that draws
+        without a graphics card.
+    """
+
+    def __init__(
+        self, loop: LiveLoop, host: str = "127.0.0.1", port: int = 8080, detail: float = FINE
+    ) -> None:
         self._loop = loop
-        # viser prints a banner of its own; standard output belongs to what a command prints.
-        with contextlib.redirect_stdout(io.StringIO()):
+        with _quiet():
             self._server = viser.ViserServer(host, port, label=TITLE, verbose=False)
         self._uploads = Uploads()
         self._lay_out(self._server.gui)
-        self.scene = SceneView(self._server)
+        self.scene = SceneView(self._server, detail)
         self._closing = threading.Event()
         self._drawing = threading.Thread(target=self._draw_until_closed, name="drawing")
         self._drawing.start()
@@ -59,7 +73,8 @@ class App:
         self._closing.set()
         self._drawing.join()
         self.scene.wait()
-        self._server.stop()
+        with _quiet():
+            self._server.stop()
         self._uploads.close()
 
     def __enter__(self) -> "App":
@@ -117,3 +132,8 @@ class App:
             panel.draw(now)
         if self.scene.lacks_meshes:
             self._messages.notify(_NO_MESHES)
+
+
+def _quiet() -> contextlib.redirect_stdout[io.StringIO]:
+    """Swallow viser's banners: standard output belongs to what a command prints."""
+    return contextlib.redirect_stdout(io.StringIO())

@@ -49,7 +49,7 @@ def view(now: Snapshot) -> GateView:
     gate = now.gate
     unused = tuple(Step(state, "unused", 0.0) for state in SEQUENCE)
     if gate is None:
-        return GateView(unused, "Nobody is watched", "Press Record or Watch in 2 Teach.")
+        return GateView(unused, "Nobody is watched", "2 Teach: Record, or Watch")
     if now.gate_mode == "open":
         headline = "Armed without signs" if gate.armed else "Not armed"
         return GateView(unused, headline, now.held or "the gate stands open")
@@ -93,7 +93,7 @@ def _box(step: Step) -> str:
         f"flex:1;text-align:center;border:3px {border} {frame};border-radius:.4em;"
         f"background:{color if filled else 'transparent'};"
         f"color:{'#111' if filled else 'inherit'};"
-        f"font-weight:{800 if filled else 500};font-size:max(19px,2.4vh);line-height:1.25"
+        f"font-weight:{800 if filled else 500};font-size:22px;letter-spacing:-.5px;line-height:1.25"
     )
     bar = f"height:6px;width:{100 * step.share:.0f}%;background:{color}"
     word = f"<div>{_SIGNS[step.light]}</div><div>{step.state.value.upper()}</div>"

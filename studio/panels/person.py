@@ -17,9 +17,10 @@ from studio.engine.skeleton import (
     Skeleton,
     Tracking,
 )
+from studio.engine.snapshot import Snapshot
 from studio.panels.palette import HAND, UNSEEN_HAND
 
-BESIDE = (0.75, 1.2)  # [m] before the robot, and to the side of the arm that is not taught
+BESIDE = (0.45, 1.75)  # [m] before the robot, and to the side of the arm that is not taught
 ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
 _BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
 
@@ -32,7 +33,6 @@ class Placement:
     """Where camera space lies in the world, for one person: ``world = R · camera + offset``."""
 
     offset: FloatArray  # (3,) [m]
-    body_id: str
 
     @classmethod
     def of(cls, skeleton: Skeleton, side: Side) -> "Placement":
@@ -41,7 +41,7 @@ class Placement:
         ahead, aside = BESIDE
         spot = np.array([ahead, -aside if side == "left" else aside])
         offset = np.append(spot - turned[Joint.SPINE_BASE, :2], -turned[:, 2].min())
-        return cls(offset, skeleton.body_id)
+        return cls(offset)
 
     def place(self, positions: FloatArray) -> FloatArray:
         """Return points (..., 3) [m] of camera space in the world."""
@@ -54,7 +54,8 @@ class PersonView:
 
     def __init__(self, scene: viser.SceneApi, name: str = "/person") -> None:
         self._placement: Placement | None = None
-        self._drawn: tuple[Skeleton, bool] | None = None
+        self._person: object = None  # whom it is for
+        self._drawn: object = None
         self._root = scene.add_frame(name, show_axes=False, visible=False)
         ball = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
         self._joints = scene.add_batched_meshes_simple(
@@ -79,23 +80,30 @@ class PersonView:
             f"{name}/left_hand_state", "", anchor="bottom-center", font_screen_scale=1.3
         )
 
-    def draw(self, skeleton: Skeleton | None, side: Side, watched: bool) -> None:
+    def draw(self, now: Snapshot) -> None:
         """Show a person, or nobody; the hand speaks only while somebody listens."""
+        skeleton, watched = now.skeleton, now.gate is not None
         self._root.visible = skeleton is not None
         self._label.visible = watched
-        if skeleton is None:
-            self._placement = None
-        if skeleton is None or (skeleton, watched) == self._drawn:
+        if skeleton is None or (skeleton, watched, now.side) == self._drawn:
             return
-        if self._placement is None or self._placement.body_id != skeleton.body_id:
-            self._placement = Placement.of(skeleton, side)
-        self._drawn = skeleton, watched
-        points = self._placement.place(skeleton.positions)
+        self._drawn = skeleton, watched, now.side
+        self._show(self._placed(skeleton, now), skeleton, watched)
+
+    def _placed(self, skeleton: Skeleton, now: Snapshot) -> FloatArray:
+        """Return the joints (25, 3) [m] in the world; another person gets another placement."""
+        person = (now.source, now.side, skeleton.body_id)
+        if self._placement is None or person != self._person:
+            self._person, self._placement = person, Placement.of(skeleton, now.side)
+        return self._placement.place(skeleton.positions)
+
+    def _show(self, points: FloatArray, skeleton: Skeleton, watched: bool) -> None:
         self._joints.batched_positions = points.astype(np.float32)
         self._joints.batched_colors = joint_colors(skeleton)
         self._bones.points = points[np.array(BONES)]
         hand, state = points[Joint.HAND_LEFT], skeleton.left_hand.state
-        self._hand.position, self._hand.color = hand, HAND[state] if watched else UNSEEN_HAND
+        self._hand.position = hand
+        self._hand.color = HAND[state] if watched else UNSEEN_HAND
         self._label.position = hand + ABOVE
         self._label.text = hand_words(state)
 

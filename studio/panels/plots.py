@@ -85,8 +85,10 @@ class EvidencePanel:
                 title=title,
                 bands=_BANDS,
                 scales=_scales(data),
+                axes=_AXES,
                 legend={"show": False},
                 height=HEIGHT,
+                padding=(8, 16, 0, 0),
             )
 
 
@@ -181,6 +183,7 @@ _SERIES = (
     _line("robot", css(ROBOT), 3.0),
 )
 _BANDS = (viser.uplot.Band(series=(2, 1), fill=css(ENVELOPE, 0.25)),)
+_AXES = (viser.uplot.Axis(size=26), viser.uplot.Axis(size=42))  # [px] for the numbers
 _NOTHING = markup.note("Nothing has been taught yet: the plots come with the first demonstration.")
 
 

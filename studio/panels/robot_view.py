@@ -8,7 +8,7 @@ import viser
 
 from studio.engine.robot import BASE_HEIGHT, load_robot
 from studio.engine.skeleton import FloatArray
-from studio.panels.meshes import COARSE, FINE, Look, looks
+from studio.panels.meshes import COARSE, Look, looks
 from studio.panels.palette import GHOST
 from studio.panels.poses import quaternions
 
@@ -16,16 +16,19 @@ STILL = 1e-4  # [rad] a joint that moved less is not drawn anew
 
 
 class RobotView:
-    """Draws the robot; ``name`` is its place in the scene's tree."""
+    """Draws the robot, down to ``detail`` [m]; ``name`` is its place in the scene's tree."""
 
-    def __init__(self, scene: viser.SceneApi, name: str = "/robot") -> None:
+    def __init__(self, scene: viser.SceneApi, detail: float, name: str = "/robot") -> None:
         scene.add_frame(name, show_axes=False, position=(0.0, 0.0, BASE_HEIGHT))
         self._robot = load_robot()
         self._drawn: FloatArray | None = None
         poses = self._robot.link_poses(np.zeros(len(self._robot.joint_names)))
         found = looks(self._robot)
         self.has_meshes = any(look.has_meshes for look in found)
-        self._nodes = [(look.links, _node(scene, name, look, poses)) for look in found]
+        self._nodes = [
+            (look.links, _add(scene, f"{name}/{look.links[0]}", look, detail, poses))
+            for look in found
+        ]
 
     def draw(self, joints: FloatArray) -> None:
         """Bring the links to where the joints (15,) [rad] put them."""
@@ -66,14 +69,14 @@ class GhostView:
             node.position, node.wxyz = transform[:3, 3], turn
 
 
-def _node(
-    scene: viser.SceneApi, name: str, look: Look, poses: dict[str, FloatArray]
+def _add(
+    scene: viser.SceneApi, name: str, look: Look, detail: float, poses: dict[str, FloatArray]
 ) -> viser.BatchedGlbHandle:
     """Add a surface once for all links that look like it."""
     transforms = np.stack([poses[link] for link in look.links])
     return scene.add_batched_glb(
-        f"{name}/{look.links[0]}",
-        look.surface(FINE).as_glb(),
+        name,
+        look.surface(detail).as_glb(),
         batched_wxyzs=quaternions(transforms),
         batched_positions=transforms[:, :3, 3],
         lod="off",

@@ -25,8 +25,8 @@ _SKY, _GROUND = (238, 241, 245), (190, 201, 211)
 class SceneView:
     """Everything in the 3D view; Baxter's meshes come a little later, from their own thread."""
 
-    def __init__(self, server: viser.ViserServer) -> None:
-        self._scene = server.scene
+    def __init__(self, server: viser.ViserServer, detail: float) -> None:
+        self._scene, self._detail = server.scene, detail
         self._robot: RobotView | None = None
         self._ghost: GhostView | None = None
         self._furnished: Side | None = None
@@ -57,11 +57,11 @@ class SceneView:
             self._robot.draw(now.world.joint_positions)
         if self._ghost is not None:
             self._ghost.draw(now.ghost, _ghost_side(now))
-        self._person.draw(now.skeleton, now.side, watched=now.gate is not None)
+        self._person.draw(now)
         self._trace(now)
 
     def _load(self) -> None:
-        self._robot = RobotView(self._scene)
+        self._robot = RobotView(self._scene, self._detail)
         self._ghost = GhostView(self._scene)
 
     def _furnish(self, side: Side) -> None:
@@ -114,8 +114,8 @@ class SceneView:
 def _set_the_stage(server: viser.ViserServer) -> None:
     """Set camera, light, backdrop and floor."""
     camera = server.initial_camera
-    camera.position, camera.look_at = (3.9, 0.55, 2.0), (0.3, -0.42, 0.80)
-    camera.fov = math.radians(42.0)
+    camera.position, camera.look_at = (4.05, 0.5, 2.0), (0.3, -0.47, 0.86)
+    camera.fov = math.radians(46.0)
     scene = server.scene
     scene.configure_environment_map("studio", environment_intensity=0.25)
     backdrop = np.linspace(_SKY, _GROUND, 64).astype(np.uint8)[:, None, :]
