@@ -20,7 +20,7 @@ from studio.engine.skeleton import (
 from studio.engine.snapshot import Snapshot
 from studio.panels.palette import HAND, UNSEEN_HAND
 
-BESIDE = (0.45, 1.75)  # [m] before the robot, and to the side of the arm that is not taught
+BESIDE = (0.2, 1.15)  # [m] before the robot, and to the side of the arm that is not taught
 ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
 _BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
 

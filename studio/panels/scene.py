@@ -114,8 +114,8 @@ class SceneView:
 def _set_the_stage(server: viser.ViserServer) -> None:
     """Set camera, light, backdrop and floor."""
     camera = server.initial_camera
-    camera.position, camera.look_at = (4.05, 0.5, 2.0), (0.3, -0.47, 0.86)
-    camera.fov = math.radians(46.0)
+    camera.position, camera.look_at = (3.6, 0.75, 1.95), (0.25, -0.3, 0.84)
+    camera.fov = math.radians(43.0)
     scene = server.scene
     scene.configure_environment_map("studio", environment_intensity=0.25)
     backdrop = np.linspace(_SKY, _GROUND, 64).astype(np.uint8)[:, None, :]

@@ -1,0 +1,53 @@
+"""Snapshots of one lesson from beginning to end, as a real session gives them."""
+
+from pathlib import Path
+
+import pytest
+
+from studio.engine import commands
+from studio.engine.session import Session
+from studio.engine.snapshot import Mode, Snapshot
+from studio.engine.teaching import LearnerSettings
+
+Lesson = dict[str, Snapshot]
+
+
+@pytest.fixture(scope="session")
+def lesson(tmp_path_factory: pytest.TempPathFactory) -> Lesson:
+    """The snapshots by what is going on in them; nobody may change them."""
+    session = Session(tmp_path_factory.mktemp("recordings"))
+    try:
+        return dict(_lived_through(session))
+    finally:
+        session.close()
+
+
+def _lived_through(session: Session):
+    def do(*orders: commands.Command) -> Snapshot:
+        for order in orders:
+            session.post(order)
+        return session.tick()
+
+    def until(reached) -> Snapshot:
+        for _ in range(900):
+            if reached(now := session.tick()):
+                return now
+        raise AssertionError(session.snapshot.message.text)
+
+    yield "start", session.tick()
+    yield "error", do(commands.UseFile(Path("nowhere.json"), "<b>nowhere</b>.json"))
+    yield "sourced", do(commands.UseDemonstrator())
+    yield "recording", do(commands.Record())
+    yield "lasso", until(lambda now: now.gate is not None and now.gate.lit == 1)
+    yield "armed", until(lambda now: now.gate is not None and now.gate.armed)
+    yield "recorded", until(lambda now: now.mode is Mode.IDLE)
+    yield "trained on one", do(commands.Train(LearnerSettings("rbf", 20)))
+    do(commands.UseDemonstrator(), commands.Record())
+    yield "taught twice", until(lambda now: now.mode is Mode.IDLE)
+    yield "trained", do(commands.Train(LearnerSettings("rbf", 20)), commands.Choose(1))
+    yield "playing", do(commands.PlayReproduction())
+    yield "halfway", until(lambda now: now.time > now.duration / 2)
+    yield "played", until(lambda now: now.mode is Mode.IDLE)
+    yield "replaying", do(commands.PlayDemonstration())
+    yield "stopped", do(commands.Stop())
+    yield "open", do(commands.Configure("right", "paper", "open"), commands.Watch())
