@@ -121,8 +121,8 @@ def _learner_line(lesson: Lesson) -> str:
     shown = len(taught.demonstrations)
     return (
         f"Learned by {lesson.settings.name} with {count} neurons from {shown} "
-        f"demonstration{'s' * (shown != 1)} of {taught.duration:.1f} s, {SAMPLES} x {len(taught.joints)} each, "
-        f"{taught.side} arm, {taught.mapping} mapping:"
+        f"demonstration{'s' * (shown != 1)} of {taught.duration:.1f} s, "
+        f"{SAMPLES} x {len(taught.joints)} each, {taught.side} arm, {taught.mapping} mapping:"
     )
 
 
