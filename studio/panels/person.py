@@ -13,14 +13,13 @@ from studio.engine.skeleton import (
     FloatArray,
     HandState,
     Joint,
-    Side,
     Skeleton,
     Tracking,
 )
 from studio.engine.snapshot import Snapshot
 from studio.panels.palette import HAND, UNSEEN_HAND
 
-BESIDE = (0.2, 1.15)  # [m] before the robot, and to the side of the arm that is not taught
+SPOT = np.array([0.1, -1.3])  # [m] ahead and to the left of the robot's axis, in the camera's view
 ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
 _BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
 
@@ -35,12 +34,10 @@ class Placement:
     offset: FloatArray  # (3,) [m]
 
     @classmethod
-    def of(cls, skeleton: Skeleton, side: Side) -> "Placement":
+    def of(cls, skeleton: Skeleton) -> "Placement":
         """Put a person's hips over the spot beside the robot, and the lowest joint on the floor."""
         turned = skeleton.positions @ WORLD_FROM_CAMERA.T
-        ahead, aside = BESIDE
-        spot = np.array([ahead, -aside if side == "left" else aside])
-        offset = np.append(spot - turned[Joint.SPINE_BASE, :2], -turned[:, 2].min())
+        offset = np.append(SPOT - turned[Joint.SPINE_BASE, :2], -turned[:, 2].min())
         return cls(offset)
 
     def place(self, positions: FloatArray) -> FloatArray:
@@ -85,16 +82,16 @@ class PersonView:
         skeleton, watched = now.skeleton, now.gate is not None
         self._root.visible = skeleton is not None
         self._label.visible = watched
-        if skeleton is None or (skeleton, watched, now.side) == self._drawn:
+        if skeleton is None or (skeleton, watched) == self._drawn:
             return
-        self._drawn = skeleton, watched, now.side
+        self._drawn = skeleton, watched
         self._show(self._placed(skeleton, now), skeleton, watched)
 
     def _placed(self, skeleton: Skeleton, now: Snapshot) -> FloatArray:
         """Return the joints (25, 3) [m] in the world; another person gets another placement."""
-        person = (now.source, now.side, skeleton.body_id)
+        person = (now.source, skeleton.body_id)
         if self._placement is None or person != self._person:
-            self._person, self._placement = person, Placement.of(skeleton, now.side)
+            self._person, self._placement = person, Placement.of(skeleton)
         return self._placement.place(skeleton.positions)
 
     def _show(self, points: FloatArray, skeleton: Skeleton, watched: bool) -> None:

@@ -43,7 +43,7 @@ class EvidencePanel:
     def __init__(self, gui: viser.GuiApi, tab: viser.GuiTabHandle) -> None:
         self._gui, self._tab = gui, tab
         self._legend = gui.add_html(_NOTHING)
-        self._plots: list[viser.GuiUplotHandle] = []
+        self._plots: list[JointPlot] = []
         self._trace = Trace()
         self._drawn: object = None
 
@@ -64,32 +64,44 @@ class EvidencePanel:
         curves = curves_of(now, self._trace)
         self._legend.content = _NOTHING if curves is None else _LEGEND
         for number, plot in enumerate(self._plots):
-            plot.visible = curves is not None and number < len(curves.joints)
+            plot.chart.visible = curves is not None and number < len(curves.joints)
         if curves is not None:
             self._show(curves)
 
     def _show(self, curves: Curves) -> None:
         for column, joint in enumerate(curves.joints):
-            data, title = curves.of_joint(column), f"{joint} [deg] over time [s]"
-            if column < len(self._plots):
-                plot = self._plots[column]
-                plot.data, plot.title, plot.scales = data, title, _scales(data)
+            if column == len(self._plots):
+                with self._tab:
+                    self._plots.append(JointPlot(self._gui, joint, curves.of_joint(column)))
             else:
-                self._plots.append(self._plot(data, title))
+                self._plots[column].draw(joint, curves.of_joint(column))
 
-    def _plot(self, data: tuple[FloatArray, ...], title: str) -> viser.GuiUplotHandle:
-        with self._tab:
-            return self._gui.add_uplot(
-                data,
-                _SERIES,
-                title=title,
-                bands=_BANDS,
-                scales=_scales(data),
-                axes=_AXES,
-                legend={"show": False},
-                height=HEIGHT,
-                padding=(8, 16, 0, 0),
-            )
+
+class JointPlot:
+    """One joint's plot. Only its data change often: anything else builds the chart anew."""
+
+    def __init__(self, gui: viser.GuiApi, joint: str, data: tuple[FloatArray, ...]) -> None:
+        self._frame = _frame(joint, data)
+        title, scales = self._frame
+        self.chart = gui.add_uplot(
+            data,
+            _SERIES,
+            title=title,
+            bands=_BANDS,
+            scales=scales,
+            axes=_AXES,
+            legend={"show": False},
+            height=HEIGHT,
+            padding=(8, 16, 0, 0),
+        )
+
+    def draw(self, joint: str, data: tuple[FloatArray, ...]) -> None:
+        """Show other data, and another joint if need be."""
+        frame = _frame(joint, data)
+        if frame != self._frame:
+            self._frame = frame
+            self.chart.title, self.chart.scales = frame
+        self.chart.data = data
 
 
 class Trace:
@@ -159,9 +171,14 @@ def axis_range(values: FloatArray) -> tuple[float, float]:
     return ROUND * float(np.floor(lower)), ROUND * float(np.ceil(upper))
 
 
-def _scales(data: tuple[FloatArray, ...]) -> dict[str, viser.uplot.Scale]:
-    curves = np.concatenate(data[1:])
-    return {"x": viser.uplot.Scale(time=False), "y": viser.uplot.Scale(range=axis_range(curves))}
+def _frame(joint: str, data: tuple[FloatArray, ...]) -> tuple[str, dict[str, viser.uplot.Scale]]:
+    """Return a plot's title and axes."""
+    stamps, *curves = data
+    scales = {
+        "x": viser.uplot.Scale(time=False, range=(0.0, float(stamps[-1]))),
+        "y": viser.uplot.Scale(range=axis_range(np.concatenate(curves))),
+    }
+    return f"{joint} [deg] over time [s]", scales
 
 
 def _line(label: str, stroke: str, width: float, dash: tuple[int, ...] = ()) -> viser.uplot.Series:

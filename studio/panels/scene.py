@@ -114,7 +114,7 @@ class SceneView:
 def _set_the_stage(server: viser.ViserServer) -> None:
     """Set camera, light, backdrop and floor."""
     camera = server.initial_camera
-    camera.position, camera.look_at = (3.6, 0.75, 1.95), (0.25, -0.3, 0.84)
+    camera.position, camera.look_at = (3.6, 0.75, 1.95), (0.25, -0.34, 0.84)
     camera.fov = math.radians(43.0)
     scene = server.scene
     scene.configure_environment_map("studio", environment_intensity=0.25)

@@ -14,8 +14,8 @@ from studio.panels.app import App
 
 
 @pytest.fixture
-def loop(tmp_path: Path):
-    with LiveLoop(lambda: Session(tmp_path), speed=20.0) as running:
+def loop(tmp_path: Path, request: pytest.FixtureRequest):
+    with LiveLoop(lambda: Session(tmp_path), getattr(request, "param", 1.0)) as running:
         yield running
 
 
@@ -46,6 +46,7 @@ def test_a_busy_port_is_left_alone(loop) -> None:
                 assert answer.status == 200
 
 
+@pytest.mark.parametrize("loop", [10.0], indirect=True)
 def test_all_is_drawn_from_teaching_to_playing_without_a_browser(loop) -> None:
     """Every panel draws every state; an error on the drawing thread would fail this test."""
     from studio.engine.teaching import LearnerSettings  # noqa: PLC0415

@@ -6,7 +6,7 @@ from hypothesis import given, settings, strategies
 from hypothesis.extra import numpy as arrays
 
 from studio.engine.demonstration import SAMPLES, resample
-from studio.panels.plots import SMALLEST_RANGE, Trace, axis_range, curves_of
+from studio.panels.plots import SMALLEST_RANGE, JointPlot, Trace, axis_range, curves_of
 
 
 def test_nothing_taught_nothing_shown(lesson) -> None:
@@ -80,3 +80,29 @@ def test_an_axis_holds_all_and_exaggerates_nothing(values) -> None:
     assert np.nanmax(values) <= upper
     assert upper - lower >= SMALLEST_RANGE
     assert upper - lower <= max(np.nanmax(values) - np.nanmin(values), SMALLEST_RANGE) + 10.0
+
+
+class Chart:
+    """What a plot's handle is told."""
+
+    def __init__(self) -> None:
+        self.__dict__["told"] = []
+
+    def __setattr__(self, name: str, value: object) -> None:
+        self.told.append(name)
+
+
+class Gui:
+    def add_uplot(self, *_: object, **__: object) -> Chart:
+        return Chart()
+
+
+def test_a_chart_is_built_anew_only_where_its_frame_changes(lesson) -> None:
+    """The browser tears a chart down for new axes; five times a second that leaves it blank."""
+    curves = curves_of(lesson["played"], Trace())
+    data = curves.of_joint(0)
+    plot = JointPlot(Gui(), "left_s0", data)
+    plot.draw("left_s0", (*data[:-1], data[-1] + 0.01))
+    assert plot.chart.told == ["data"]
+    plot.draw("left_s0", (*data[:-1], data[-1] + 90.0))
+    assert sorted(plot.chart.told[1:]) == ["data", "scales", "title"]
