@@ -1,10 +1,8 @@
 """The commands. Results go to standard output, everything else to standard error."""
 
-import contextlib
-import json
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -12,6 +10,7 @@ from typing import Annotated, Any, Literal
 import tyro
 
 import studio
+from studio.console import as_json_text, log, only_ours_on_stdout
 from studio.engine.activity import next_recording_path
 from studio.engine.errors import StudioError
 from studio.engine.experiment import Setup, run_experiment
@@ -23,6 +22,7 @@ from studio.engine.resources import recordings_folder
 from studio.engine.sources import SkeletonRecording
 from studio.engine.sources.demonstrator import demonstrate
 from studio.engine.teaching import LearnerSettings
+from studio.sweep_command import Sweep
 
 Files = Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="FILE...")]
 Learner = Literal["rbf", "newrb"]
@@ -147,7 +147,7 @@ class Inspect:
     def run(self) -> int:
         """Inspect the file."""
         inspection = inspect_file(self.file)
-        print(_json(inspection.to_dict()) if self.json else inspection)
+        print(as_json_text(inspection.to_dict()) if self.json else inspection)
         return 0
 
 
@@ -155,9 +155,10 @@ Command = (
     Annotated[Serve, tyro.conf.subcommand("serve")]
     | Annotated[Demo, tyro.conf.subcommand("demo")]
     | Annotated[Teach, tyro.conf.subcommand("teach")]
+    | Annotated[Sweep, tyro.conf.subcommand("sweep")]
     | Annotated[Inspect, tyro.conf.subcommand("inspect")]
 )
-COMMANDS = ("serve", "demo", "teach", "inspect")
+COMMANDS = ("serve", "demo", "teach", "sweep", "inspect")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -168,7 +169,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         return
     if not given or (given[0] not in COMMANDS and given[0] not in ("-h", "--help")):
         given.insert(0, "serve")
-    command: Serve | Demo | Teach | Inspect = tyro.cli(
+    command: Serve | Demo | Teach | Sweep | Inspect = tyro.cli(
         Command,
         prog="studio",
         description=studio.__doc__,
@@ -185,7 +186,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         print(f"studio: {error}", file=sys.stderr)
         if getattr(command, "json", False):
             files: dict[str, Any] = {} if isinstance(command, Inspect) else {"files": []}
-            print(_json(files | {"error": str(error)}))
+            print(as_json_text(files | {"error": str(error)}))
         status = 1
     except KeyboardInterrupt:
         status = 130
@@ -195,14 +196,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def _experiment(
     inputs: Sequence[Path | SkeletonRecording], setup: Setup, as_object: bool, save: Path | None
 ) -> int:
-    with _only_ours_on_stdout():
-        experiment = run_experiment(inputs, setup, _keeper(save), _log)
+    with only_ours_on_stdout():
+        experiment = run_experiment(inputs, setup, _keeper(save), log)
     if experiment.error:
         print(f"studio: {experiment.error}", file=sys.stderr)
     for file in experiment.files:
         if file.warning:
             print(f"studio: {file.warning}", file=sys.stderr)
-    print(_json(as_json(experiment)) if as_object else as_text(experiment))
+    print(as_json_text(as_json(experiment)) if as_object else as_text(experiment))
     return 1 if experiment.error else 0
 
 
@@ -214,28 +215,6 @@ def _keeper(folder: Path | None) -> Callable[[Recording], None] | None:
     def keep(recording: Recording) -> None:
         path = next_recording_path(folder)
         write_recording(path, recording)
-        _log(f"saved {path}")
+        log(f"saved {path}")
 
     return keep
-
-
-@contextlib.contextmanager
-def _only_ours_on_stdout() -> Iterator[None]:
-    """Send what libraries print to standard output to standard error, C code's prints included."""
-    sys.stdout.flush()
-    kept = os.dup(1)
-    os.dup2(2, 1)
-    try:
-        yield
-    finally:
-        sys.stdout.flush()
-        os.dup2(kept, 1)
-        os.close(kept)
-
-
-def _log(text: str) -> None:
-    print(f"studio: {text}", file=sys.stderr)
-
-
-def _json(value: dict[str, Any]) -> str:
-    return json.dumps(value, indent=2, allow_nan=False)

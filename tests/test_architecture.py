@@ -42,7 +42,9 @@ def test_layers(path: Path) -> None:
             assert not within(name, "viser")
         if place != "studio/engine/world.py":
             assert not within(name, "pybullet", "pybullet_data")
-        assert not within(name, "pickle", "shelve", "marshal", "dill", "joblib")
+        if place != "studio/engine/parallel.py":  # joblib there runs tasks, and loads no file
+            assert not within(name, "joblib")
+        assert not within(name, "pickle", "shelve", "marshal", "dill")
 
 
 def test_rbf_knows_numpy_and_scipy_only() -> None:

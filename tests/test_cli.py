@@ -3,6 +3,7 @@
 import gzip
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -137,7 +138,9 @@ def test_broken_files_give_words_and_no_traceback(tmp_path: Path, here) -> None:
     assert studio("teach", tmp_path / "empty").returncode == 1
 
 
-@pytest.mark.parametrize("command", [(), ("demo",), ("teach",), ("inspect",), ("serve",)])
+@pytest.mark.parametrize(
+    "command", [(), ("demo",), ("teach",), ("sweep",), ("inspect",), ("serve",)]
+)
 def test_help_reads(command: tuple[str, ...], here) -> None:
     status, printed, _ = here(*command, "--help")
     assert status == 0
@@ -172,6 +175,33 @@ def test_an_open_gate_is_not_what_is_missing_where_nobody_is_seen(tmp_path: Path
     assert done.returncode == 1
     assert "nobody in sight" in done.stderr
     assert "--gate open" not in done.stderr
+
+
+def test_a_sweep_prints_one_object_and_writes_a_page_that_needs_no_network(tmp_path: Path) -> None:
+    command = ("sweep", "--neurons", "15", "5", "--learner", "rbf", "--json")
+    done = studio(*command, "--html", tmp_path / "report.html", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert [(row["learner"], row["neurons"]) for row in found["rows"]] == [("rbf", 5), ("rbf", 15)]
+    assert found["rows"][1]["floor_ratio"] < found["rows"][0]["floor_ratio"]
+    assert found["alone"]["rbf"]["block_down"] is True
+    page = (tmp_path / "report.html").read_text()
+    assert not re.findall(r"(?:src|href|url)\W{1,3}(?:https?:)?//", page)
+    assert page.count("<svg") > 10
+
+
+def test_a_sweep_says_what_it_cannot_do(tmp_path: Path, here) -> None:
+    one = samples_folder() / "demonstration-1.mcap"
+    for options, words in (
+        (("--learner", "magic"), "unknown learner 'magic'; there are newrb, rbf"),
+        (("--neurons", "0"), "neurons: 1 to 1000, not 0"),
+        ((one, "--neurons", "5", "--learner", "spline"), "give two or more"),
+        ((samples_folder() / "never-arms.jsonl",), "waiting for Lasso"),
+        (("--neurons", "5", "--learner", "rbf", "--html", tmp_path), "cannot be written"),
+    ):
+        status, _, said = here("sweep", *options)
+        assert status == 1
+        assert words in said
 
 
 def test_impossible_options_are_refused_in_words(here) -> None:

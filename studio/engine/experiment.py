@@ -74,7 +74,7 @@ class Experiment:
 
 
 @dataclass(eq=False)
-class _Teachers:
+class Teachers:
     """What has been taught so far."""
 
     files: list[FileOutcome] = field(default_factory=list)
@@ -104,18 +104,11 @@ def run_experiment(
     FileError
         Where a file cannot be used.
     """
-    teachers = _Teachers()
-    for given in inputs:
-        progress(f"teaching from {given if isinstance(given, Path) else given.path}")
-        recording, outcome = _taught(given, setup)
-        teachers.files.append(outcome)
-        teachers.demonstrations += demonstrations_of(recording, outcome.path)
-        if keep is not None and recording.samples:
-            keep(recording)
+    teachers = teach(inputs, setup, keep, progress)
     try:
         taught = DemonstrationSet.of(teachers.demonstrations, setup.interpolation, setup.seed)
     except NothingTaughtError:
-        return Experiment(setup, tuple(teachers.files), error=_why_nothing(teachers.files))
+        return Experiment(setup, tuple(teachers.files), error=why_nothing(teachers.files))
     progress(f"learning with {setup.learner.neurons} neurons, then reproducing")
     lesson = learn(taught, setup.learner)
     reproduction = reproduce(lesson)
@@ -124,6 +117,24 @@ def run_experiment(
         replay(each, rows) for each, rows in zip(taught.demonstrations, taught.rows, strict=True)
     )
     return Experiment(setup, tuple(teachers.files), "", lesson, reproduction, replays)
+
+
+def teach(
+    inputs: Sequence[Path | SkeletonRecording],
+    setup: Setup,
+    keep: Callable[[Recording], None] | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Teachers:
+    """Follow every input and collect its demonstrations; see `run_experiment`."""
+    teachers = Teachers()
+    for given in inputs:
+        progress(f"teaching from {given if isinstance(given, Path) else given.path}")
+        recording, outcome = _taught(given, setup)
+        teachers.files.append(outcome)
+        teachers.demonstrations += demonstrations_of(recording, outcome.path)
+        if keep is not None and recording.samples:
+            keep(recording)
+    return teachers
 
 
 def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, FileOutcome]:
@@ -175,7 +186,8 @@ def _outcome(path: str, name: str, ticks: Sequence[int], recording: Recording) -
     )
 
 
-def _why_nothing(files: Sequence[FileOutcome]) -> str:
+def why_nothing(files: Sequence[FileOutcome]) -> str:
+    """Return in words why no file taught anything."""
     reasons = []
     for file in files:
         why, _ = max(file.held.items(), key=itemgetter(1), default=("no frames", 0))

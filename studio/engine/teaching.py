@@ -71,13 +71,7 @@ class Lesson:
 
     def trajectory(self) -> Trajectory:
         """Return the network's output over the demonstrations' mean duration."""
-        per_second = (SAMPLES - 1) / self.taught.duration
-
-        def at(time: float) -> FloatArray:
-            output: FloatArray = self.model.predict(np.array([1.0 + time * per_second]))[0]
-            return output
-
-        return at
+        return model_as_trajectory(self.model, self.taught.duration)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +88,17 @@ class Replay:
 
     performance: Performance  # of the resampled one
     interpolation: Deviation  # of the raw one's measured motion from the resampled one's
+
+
+def model_as_trajectory(model: Model, duration: float) -> Trajectory:
+    """Return a model's output on index time as a trajectory over a duration [s]."""
+    per_second = (SAMPLES - 1) / duration
+
+    def at(time: float) -> FloatArray:
+        output: FloatArray = model.predict(np.array([[1.0 + time * per_second]]))[0]
+        return output
+
+    return at
 
 
 def learn(taught: DemonstrationSet, settings: LearnerSettings) -> Lesson:

@@ -1,5 +1,6 @@
 """Where the Gaussians sit. The paper only says that they are "selected from the sample"."""
 
+from itertools import islice
 from typing import Literal, get_args
 
 import numpy as np
@@ -7,17 +8,20 @@ from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
 from studio.rbf.aggregation import DistinctInputs, IndexArray
-from studio.rbf.basis import FloatArray, extent
+from studio.rbf.basis import FloatArray, extent, gaussian_design
+from studio.rbf.gcv import mean_target
+from studio.rbf.selection import independent_picks
 from studio.rbf.validation import as_inputs, one_of
 
-CenterRule = Literal["grid", "kmeans", "random"]
+PlacingRule = Literal["grid", "kmeans", "random"]  # they ask for no targets and no width
+CenterRule = Literal[PlacingRule, "ols"]
 RandomState = int | np.random.Generator | None
 LLOYD_ROUNDS = 100  # k-means ends long before, unless clusters swap a point forever
 LATTICE_DIGITS = 9  # far above rounding, far below any spacing that matters
 
 
 def place_centers(
-    rule: CenterRule | ArrayLike, data: DistinctInputs, count: int, random_state: RandomState
+    rule: PlacingRule | ArrayLike, data: DistinctInputs, count: int, random_state: RandomState
 ) -> FloatArray:
     """Return the centers (m, d) by a rule, or the caller's own, in the unit of the data.
 
@@ -77,6 +81,24 @@ def _farthest_points(inputs: FloatArray, count: int) -> FloatArray:
         chosen.append(int(distances.argmax()))
         distances = np.minimum(distances, cdist(points[chosen[-1:]], points)[0])
     centers: FloatArray = inputs[np.resize(chosen, count)]
+    return centers
+
+
+def greedy_centers(data: DistinctInputs, count: int, width: float) -> FloatArray:
+    """Return the inputs (m, d) that orthogonal least squares picks for Gaussians of one width.
+
+    Forward selection of Chen, Cowan and Grant (1991), see `studio.rbf.selection`, with the targets
+    about their mean, for that is what the weights have to fit. At most ``count`` of them: it ends
+    where no input is left whose Gaussian the chosen ones do not span.
+    """
+    points = _on_lattice(data.inputs)
+    relative = float(f"{width / (extent(data.inputs) or 1.0):.{LATTICE_DIGITS}g}")
+    root_counts = data.root_counts[:, np.newaxis]
+    design = root_counts * gaussian_design(points, points, relative)
+    targets = root_counts * (data.means - mean_target(data))
+    energies = data.counts.sum() * data.within + np.square(targets).sum(axis=0)
+    picks = islice(independent_picks(design, targets, energies), count)
+    centers: FloatArray = data.inputs[list(picks)]
     return centers
 
 
@@ -142,7 +164,7 @@ def _on_lattice(inputs: FloatArray) -> FloatArray:
     """Return inputs (n, d) relative to their extent, rounded.
 
     Even stamps tie all the time. Rounding makes a tie a tie in every unit, so that choices by
-    distance never depend on it.
+    distance, or by what wide Gaussians leave of one another, never depend on it.
     """
     relative = (inputs - inputs.min(axis=0)) / (extent(inputs) or 1.0)
     points: FloatArray = np.round(relative, LATTICE_DIGITS)

@@ -11,7 +11,17 @@ from typing import Any
 
 
 class NotFittedError(ValueError, AttributeError):
-    """A learner was asked before it was taught."""
+    """A learner was asked before it was taught.
+
+    Examples
+    --------
+    >>> from studio.rbf import RBFRegressor
+    >>> RBFRegressor().predict([1.0])
+    Traceback (most recent call last):
+        ...
+    studio.rbf.contract.NotFittedError: this RBFRegressor was taught nothing yet: call fit
+
+    """
 
 
 def get_settings(estimator: Any) -> dict[str, Any]:

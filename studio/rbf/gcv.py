@@ -8,6 +8,7 @@ shape, and counting them lets ripple through.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from studio.rbf.aggregation import DistinctInputs
 from studio.rbf.basis import FloatArray, extent, gaussian_design, mean_nearest_distance
 from studio.rbf.linear import TruncatedSVD, bias_shares, removed_shares, truncated_svd
 
-WIDTH_CANDIDATES = 12  # from the spacing to the extent they lie a factor of 1.5 apart at 50 neurons
+WIDTH_CANDIDATES = 10  # from `NARROWEST` to the extent they lie a factor of 1.5 apart at 50 neurons
+NARROWEST = 1.4  # times the spacing; narrower ones fit no better, and ripple between the samples
 RIDGE_CANDIDATES = 45  # four a decade of sqrt(ridge) / largest singular value
 LARGEST_RIDGE = 10.0  # in that same measure: the fit is then all but flat
 
@@ -31,15 +33,13 @@ class Choice:
 
 
 def width_candidates(centers: FloatArray, inputs: FloatArray) -> FloatArray:
-    """Return widths from the spacing of centers and inputs up to the extent of the inputs.
-
-    A Gaussian narrower than the spacing leaves gaps where nothing was taught.
-    """
+    """Return widths from `NARROWEST` spacings of centers and inputs up to the inputs' extent."""
     largest = extent(inputs)
     if largest == 0.0:
         return np.array([1.0])
     spacing = max(mean_nearest_distance(centers), mean_nearest_distance(inputs))
-    widths: FloatArray = np.geomspace(min(spacing, largest / 4.0), largest, WIDTH_CANDIDATES)
+    narrowest = min(NARROWEST * spacing, largest / 4.0)
+    widths: FloatArray = np.geomspace(narrowest, largest, WIDTH_CANDIDATES)
     return widths
 
 
@@ -47,10 +47,16 @@ def ridge_candidates(svd: TruncatedSVD, rcond: float) -> FloatArray:
     """Return ridges (l,) between the cut of the decomposition and an all but flat fit."""
     if svd.rank == 0:
         return np.zeros(1)
-    smallest = max(rcond, float(np.finfo(np.float64).eps))
-    ratios = np.geomspace(smallest, LARGEST_RIDGE, RIDGE_CANDIDATES)
-    ridges: FloatArray = np.square(ratios * svd.singular[0])
+    ridges: FloatArray = np.square(_ridge_ratios(rcond) * svd.singular[0])
     return ridges
+
+
+@cache
+def _ridge_ratios(rcond: float) -> FloatArray:
+    """Return sqrt(ridge) / largest singular value for every candidate; nobody changes it."""
+    smallest = max(rcond, float(np.finfo(np.float64).eps))
+    ratios: FloatArray = np.geomspace(smallest, LARGEST_RIDGE, RIDGE_CANDIDATES)
+    return ratios
 
 
 def gcv_scores(

@@ -31,7 +31,17 @@ StopReason = Literal["goal", "max_neurons", "exhausted"]
 
 @dataclass(frozen=True, eq=False)
 class GrowthStep:
-    """The network after one more neuron."""
+    """The network after one more neuron.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> index = np.arange(1.0, 11.0)
+    >>> step = NewrbRegressor(max_neurons=3).fit(index, np.sin(index)).history_[-1]
+    >>> step.neurons, step.distinct_centers
+    (3, 3)
+
+    """
 
     neurons: int
     mse: FloatArray  # (k,), over all samples
@@ -183,18 +193,22 @@ def _picks(design: FloatArray, data: DistinctInputs, duplicates: Duplicates) -> 
 def _grow(design: FloatArray, data: DistinctInputs, picks: Iterator[int], goal: float) -> _Growth:
     """Add the picks until the goal is met or they end; weights and bias are always the best."""
     fit = GrowingLeastSquares(data.root_counts, data.root_counts[:, np.newaxis] * data.means)
-    samples, floor = data.counts.sum(), data.floor
+    samples, floor = float(data.counts.sum()), data.floor
+    squared_units = np.square(data.target_units)
+    floor_sum = 0.0 if floor is None else float(floor.sum())
+    distinct: set[int] = set()
     chosen: list[int] = []
     history: list[GrowthStep] = []
     goal_met = False
     for pick in picks:
         fit.add(design[:, pick])
         chosen.append(pick)
-        scaled = data.within + np.square(fit.residual).sum(axis=0) / samples
-        mse = scaled * np.square(data.target_units)
-        ratio = None if floor is None or not floor.any() else float(mse.sum() / floor.sum())
-        history.append(GrowthStep(len(chosen), mse, ratio, len(set(chosen))))
-        goal_met = bool(mse.mean() < goal)
+        distinct.add(pick)
+        mse = (data.within + np.square(fit.residual).sum(axis=0) / samples) * squared_units
+        total = float(mse.sum())
+        ratio = total / floor_sum if floor_sum > 0.0 else None
+        history.append(GrowthStep(len(chosen), mse, ratio, len(distinct)))
+        goal_met = total < goal * len(mse)
         if goal_met:
             break
     bias, weights = fit.solution()

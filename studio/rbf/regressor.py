@@ -1,7 +1,7 @@
 """The Gaussian network fitted in one linear solve: the paper's Section III-B, made safe."""
 
 from dataclasses import dataclass
-from typing import Any, Literal, Self, get_args
+from typing import Any, Literal, Self, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,11 +13,19 @@ from studio.rbf.basis import (
     nearest_center_width,
     network_output,
 )
-from studio.rbf.centers import CenterRule, RandomState, place_centers
+from studio.rbf.centers import (
+    CenterRule,
+    RandomState,
+    greedy_centers,
+    grid_centers,
+    place_centers,
+)
 from studio.rbf.contract import change_settings, get_settings, regressor_tags, require_fitted
-from studio.rbf.gcv import choose, mean_target, width_candidates
+from studio.rbf.derivatives import network_derivative
+from studio.rbf.gcv import Choice, choose, mean_target, width_candidates
 from studio.rbf.linear import effective_dof, ridge_weights
 from studio.rbf.score import r_squared
+from studio.rbf.uncertainty import covariance_root, noise_of, predictive_std
 from studio.rbf.validation import (
     as_inputs,
     as_inputs_like,
@@ -46,14 +54,16 @@ class RBFRegressor:
     n_neurons : int, default 50
         How many Gaussians. More than there are distinct inputs teach nothing new: `rank_` says
         how many directions the samples could tell apart.
-    centers : {"grid", "kmeans", "random"} or array (m,) or (m, d), default "grid"
+    centers : {"grid", "kmeans", "random", "ols"} or array (m,) or (m, d), default "grid"
         "grid" divides the sorted inputs evenly (in more than one dimension: inputs spread out by
-        maximin), "kmeans" takes cluster means, "random" draws inputs. An array, in the unit of
-        the inputs, is taken as it is, and `n_neurons` then says nothing.
+        maximin), "kmeans" takes cluster means, "random" draws inputs. "ols" takes inputs greedily
+        by orthogonal least squares, anew for every width that is tried, and may end with fewer
+        than `n_neurons` where Gaussians so wide have no more to add. An array, in the unit of the
+        inputs, is taken as it is, and `n_neurons` then says nothing.
     width : {"dmax", "nearest", "gcv"} or positive number, default "gcv"
         One sigma for all Gaussians: "dmax" by Eq. 13, "nearest" the mean distance from a center
-        to the next, "gcv" the best of 12 by generalized cross-validation, or a number in the unit
-        of the inputs.
+        to the next, "gcv" the best of 10 by generalized cross-validation, or a number in the unit
+        of the inputs. Greedy centers come after their width: there, the rules look at a grid.
     solver : {"svd", "gcv"} or number >= 0, default "gcv"
         "svd" is Eq. 14 through a truncated singular value decomposition, "gcv" adds a ridge chosen
         by generalized cross-validation over the distinct inputs, a number is that ridge itself:
@@ -77,6 +87,11 @@ class RBFRegressor:
         their counts; may be infinite.
     effective_dof_ : float
         Trace of the matrix that takes the targets to the fit, the bias included.
+    noise_ : float, (k,) or None
+        Standard deviation of the samples about the network, ``sqrt(RSS / (n - effective_dof_))``;
+        None where less than one degree of freedom is left to judge it by.
+    covariance_root_ : (m + 1, rank_ + 1)
+        A root of the covariance of bias and weights, for noise 1; see `predict`.
     n_features_in_ : int
 
     Examples
@@ -89,6 +104,8 @@ class RBFRegressor:
     array([[0.479, 0.878]])
     >>> bool(abs(model.predict(t) - q).max() < 1e-4)
     True
+    >>> model.derivative([15.0]).round(4)  # d/dt of sin(t / 30) and cos(t / 30)
+    array([[ 0.0293, -0.016 ]])
 
     """
 
@@ -118,8 +135,7 @@ class RBFRegressor:
         inputs = as_inputs(X)
         targets = as_targets(y, len(inputs))
         data = distinct_inputs(inputs, targets.reshape(len(inputs), -1))
-        centers = place_centers(self.centers, data, count, self.random_state)
-        choice = choose(data, centers, self._widths(centers, data), ridge, rcond)
+        centers, choice = self._network(data, count, ridge, rcond)
         root_counts = data.root_counts
         bias = mean_target(data)
         residual = root_counts[:, np.newaxis] * (data.means - bias)
@@ -133,23 +149,83 @@ class RBFRegressor:
         self.rank_ = choice.svd.rank
         self.condition_ = choice.svd.condition
         self.effective_dof_ = effective_dof(choice.svd, root_counts, choice.ridge)
+        noise = noise_of(data, residual, choice, self.effective_dof_)
+        self.noise_ = None if noise is None else as_taught(noise * data.target_units, targets)
+        self.covariance_root_ = covariance_root(choice, len(inputs))
         self.n_features_in_ = inputs.shape[1]
         return self
 
-    def predict(self, X: ArrayLike) -> FloatArray:
+    @overload
+    def predict(self, X: ArrayLike, return_std: Literal[False] = False) -> FloatArray: ...
+
+    @overload
+    def predict(self, X: ArrayLike, return_std: Literal[True]) -> tuple[FloatArray, FloatArray]: ...
+
+    def predict(
+        self, X: ArrayLike, return_std: bool = False
+    ) -> FloatArray | tuple[FloatArray, FloatArray]:
         """Return what the network answers to inputs (n,) or (n, d): (n,) or (n, k), as y was.
+
+        With ``return_std`` also the standard deviation of one new sample at each input, in the
+        same shape: the noise of `noise_`, and what the samples left uncertain about bias and
+        weights,
+
+            std(x)^2 = noise^2 (1 + 1/n + phi(x)^T (Phi^T Phi + ridge I)^-1 phi(x)).
+
+        Without a ridge it is the prediction interval of least squares, with one the posterior of
+        Bayesian linear regression (Bishop 2006, Eq. 3.59; for the noise, Wahba 1983). It takes the
+        noise as equal everywhere, and the samples as independent: a person's repetitions are not
+        along time, so the second part is too small for them. Far from all centers only the noise
+        is left: it does not warn of extrapolation.
 
         Raises
         ------
         NotFittedError
             Before `fit`.
         ValueError
-            Where the inputs cannot be used.
+            Where the inputs cannot be used; with ``return_std`` also where the samples left less
+            than one degree of freedom to tell noise from curve.
 
         """
         require_fitted(self)
         inputs = as_inputs_like(X, self.n_features_in_, self)
-        return network_output(inputs, self.centers_, self.width_, self.weights_, self.bias_)
+        network = (self.centers_, self.width_)
+        answer = network_output(inputs, *network, self.weights_, self.bias_)
+        if not return_std:
+            return answer
+        if self.noise_ is None:
+            raise ValueError(
+                "the network fits the samples to less than one degree of freedom, so they do not "
+                "tell noise from curve: use fewer neurons, or more samples"
+            )
+        return answer, predictive_std(inputs, *network, self.covariance_root_, self.noise_)
+
+    def derivative(self, X: ArrayLike, order: int = 1) -> FloatArray:
+        """Return a derivative of the network's answer by its input, exact and not by differences.
+
+        Parameters
+        ----------
+        X : (n,) or (n, d)
+        order : int from 1 up, default 1
+            1 the velocity, 2 the acceleration, ... in units of the outputs by the unit of the
+            inputs to this power. With more than one feature only 1, the Jacobian.
+
+        Returns
+        -------
+        As `predict` for one feature, (n,) or (n, k); for d features (n, d) or (n, k, d).
+
+        Raises
+        ------
+        NotFittedError
+            Before `fit`.
+        ValueError, TypeError
+            Where the inputs or the order cannot be used, or float64 does not hold the answer.
+
+        """
+        require_fitted(self)
+        inputs = as_inputs_like(X, self.n_features_in_, self)
+        order = whole_number(order, "order")
+        return network_derivative(inputs, self.centers_, self.width_, self.weights_, order)
 
     def score(self, X: ArrayLike, y: ArrayLike) -> float:
         """Return R^2, the mean over outputs, as scikit-learn defines it."""
@@ -166,6 +242,21 @@ class RBFRegressor:
 
     def __sklearn_tags__(self) -> Any:
         return regressor_tags()
+
+    def _network(
+        self, data: DistinctInputs, count: int, ridge: float | None, rcond: float
+    ) -> tuple[FloatArray, Choice]:
+        """Return the centers (m, d), in the unit that the data are scaled to, and the rest."""
+        if not isinstance(self.centers, str) or self.centers != "ols":
+            centers = place_centers(self.centers, data, count, self.random_state)
+            return centers, choose(data, centers, self._widths(centers, data), ridge, rcond)
+        widths = self._widths(grid_centers(data.inputs, count), data)
+        picked = [greedy_centers(data, count, float(width)) for width in widths]
+        choices = [
+            (centers, choose(data, centers, [width], ridge, rcond))
+            for centers, width in zip(picked, widths, strict=True)
+        ]
+        return min(choices, key=lambda each: each[1].score)
 
     def _given_ridge(self) -> float | None:
         """Return the ridge that the setting names, or None where it is to be searched."""

@@ -7,12 +7,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from studio.rbf.basis import FloatArray
-from studio.rbf.validation import finite_array
+from studio.rbf.validation import demonstration_arrays, finite_array
 
 
 @dataclass(frozen=True, eq=False)
 class Floor:
-    """The error that no function of time can undercut, or why there is none."""
+    """The error that no function of time can undercut, or why there is none.
+
+    Examples
+    --------
+    >>> pooled_variance_floor([[[1.0], [2.0]]]).reason
+    'a single demonstration has no variance between demonstrations'
+
+    """
 
     value: FloatArray | None  # (D,)
     reason: str = ""  # in words, where the value is None
@@ -40,12 +47,14 @@ def pooled_variance_floor(
     ValueError
         Where the demonstrations are none, not finite, or not of one number of columns.
 
+    Examples
+    --------
+    >>> taught = [[[1.0], [2.0]], [[3.0], [2.0]]]  # K = 2, T = 2, D = 1
+    >>> pooled_variance_floor(taught).value
+    array([0.5])
+
     """
-    arrays = [finite_array(array, "a demonstration") for array in demonstrations]  # type: ignore[union-attr]
-    if not arrays or any(array.ndim != 2 or 0 in array.shape for array in arrays):
-        raise ValueError("demonstrations have shape (K, T, D), none of these zero")
-    if len({array.shape[1] for array in arrays}) > 1:
-        raise ValueError("all demonstrations have the same number of columns")
+    arrays = demonstration_arrays(demonstrations)
     if len(arrays) == 1:
         return Floor(None, "a single demonstration has no variance between demonstrations")
     if len({len(array) for array in arrays}) > 1 or not _shared(stamps, arrays):
@@ -65,9 +74,15 @@ def _shared(stamps: ArrayLike | None, arrays: list[FloatArray]) -> bool:
 
 
 def mean_squared_error(targets: ArrayLike, predictions: ArrayLike) -> FloatArray:
-    """Return the mean square of the errors (n, k), for each output: (k,).
+    """Return the mean square of the errors (n, k), for each output: (k,). What Table I prints.
 
     Raises ValueError where the shapes differ or a number is not finite.
+
+    Examples
+    --------
+    >>> mean_squared_error([[0.0, 1.0], [2.0, 1.0]], [[0.0, 0.0], [0.0, 0.0]])
+    array([2., 1.])
+
     """
     return np.asarray(np.square(_errors(targets, predictions)).mean(axis=0))
 
@@ -77,6 +92,12 @@ def largest_error(targets: ArrayLike, predictions: ArrayLike) -> FloatArray:
 
     This is the epsilon* of Eq. 12, over the samples that are given. Raises as
     `mean_squared_error`.
+
+    Examples
+    --------
+    >>> largest_error([[0.0, 1.0], [2.0, 1.0]], [[0.0, 0.0], [0.0, 0.0]])
+    array([2., 1.])
+
     """
     return np.asarray(np.abs(_errors(targets, predictions)).max(axis=0))
 
@@ -86,6 +107,12 @@ def r_squared(targets: ArrayLike, predictions: ArrayLike) -> float:
 
     An output that never changes counts 1 where it is met exactly and 0 otherwise, as scikit-learn
     has it. Raises as `mean_squared_error`.
+
+    Examples
+    --------
+    >>> r_squared([1.0, 2.0, 3.0], [1.0, 2.0, 4.0])
+    0.5
+
     """
     errors = _errors(targets, predictions).reshape(len(np.asarray(targets)), -1)
     values = finite_array(targets, "targets").reshape(errors.shape)

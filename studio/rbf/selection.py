@@ -11,6 +11,7 @@ with the targets d_s as they are, not centered. The highest score wins, the firs
 Repeated samples give equal columns, so candidates are the distinct inputs.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -39,28 +40,35 @@ def independent_picks(
 
     """
     squared = np.square(design).sum(axis=0)
-    original, measured = squared.copy(), squared.copy()
-    products = design.T @ targets
-    basis = np.empty((len(design), 0))
+    least, stale_below = DEPENDENT**2 * squared, STALE * squared
+    roots = np.sqrt(energies)
+    units = np.divide(targets, roots, out=np.zeros_like(targets), where=roots > 0.0)
+    products = units.T @ design  # (k, n); a score is sum_s product^4 / squared^2
+    basis = np.empty(design.shape, order="F")  # its first columns are the basis so far
     free = np.ones(design.shape[1], dtype=bool)
-    while True:
-        stale = free & (squared < STALE * measured)
+    for size in range(design.shape[1]):
+        chosen = basis[:, :size]
+        stale = free & (squared < stale_below)
         if stale.any():  # downdating has cost these too many digits
-            remainder = orthogonalized(design[:, stale], basis)
-            squared[stale] = measured[stale] = np.square(remainder).sum(axis=0)
-            products[stale] = remainder.T @ targets
-        free &= squared > DEPENDENT**2 * original
+            remainder = orthogonalized(design[:, stale], chosen)
+            squared[stale] = np.square(remainder).sum(axis=0)
+            stale_below[stale] = STALE * squared[stale]
+            products[:, stale] = units.T @ remainder
+        free &= squared > least
         if not free.any():
             return
-        pick = int(np.argmax(np.where(free, scores(squared, products, energies), -1.0)))
+        shares = np.square(products)
+        score = np.full(len(free), -1.0)
+        np.divide((shares * shares).sum(axis=0), squared * squared, out=score, where=free)
+        pick = int(score.argmax())
         free[pick] = False
-        column = orthogonalized(design[:, [pick]], basis)
-        column /= np.linalg.norm(column)
-        basis = np.hstack([basis, column])
+        column = orthogonalized(np.ascontiguousarray(design[:, pick]), chosen)
+        column /= math.sqrt(column @ column)
+        basis[:, size] = column
         yield pick
-        along = design.T @ column
-        squared -= np.square(along[:, 0])
-        products -= along @ (column.T @ targets)
+        along = column @ design
+        squared -= along * along
+        products -= (column @ units)[:, np.newaxis] * along
 
 
 def deflated_picks(

@@ -3,7 +3,7 @@
 Python writes a float64 with as many digits as bring the same number back, so a model read from its
 file predicts the same bits. The file is data only; nothing in it is ever executed.
 
-    {"format": "teaching-studio rbf model", "schema": 1, "learner": "RBFRegressor",
+    {"format": "teaching-studio rbf model", "schema": 2, "learner": "RBFRegressor",
      "time": {"unit": "index", "duration_s": 4.7},
      "settings": {"n_neurons": 50, ...},
      "learned": {"centers": [[1.0], ...], "width": 12.5, "weights": [[...], ...], ...}}
@@ -26,12 +26,21 @@ from studio.rbf.storage_reader import Table, newrb_from, rbf_from
 from studio.rbf.validation import number_above
 
 FORMAT = "teaching-studio rbf model"
-SCHEMA = 1  # raise it whenever a file of the old form would be misread
+SCHEMA = 2  # raise it whenever a file of the old form would be misread
 
 
 @dataclass(frozen=True, eq=False)
 class SavedModel:
-    """A trained network and the time it speaks of."""
+    """A trained network and the time it speaks of.
+
+    Examples
+    --------
+    >>> from studio.rbf import RBFRegressor
+    >>> model = RBFRegressor(n_neurons=2).fit([0.0, 1.0], [0.0, 1.0])
+    >>> SavedModel(model, time_unit="s", duration=1.0).duration
+    1.0
+
+    """
 
     estimator: RBFRegressor | NewrbRegressor
     time_unit: str  # of the inputs: "index", "s", ...
@@ -64,6 +73,17 @@ def save_model(
         Where the unit is empty or the duration is no positive number.
     OSError
         Where the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from studio.rbf import RBFRegressor
+    >>> model = RBFRegressor(n_neurons=3).fit([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 4.0, 9.0])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_model(f"{folder}/model.json", model, time_unit="s", duration=3.0)
+    ...     saved = load_model(f"{folder}/model.json")
+    >>> saved.time_unit, bool(saved.estimator.predict([1.5]) == model.predict([1.5]))
+    ('s', True)
 
     """
     require_fitted(estimator)
@@ -100,6 +120,17 @@ def load_model(path: str | Path) -> SavedModel:
         file, the place in it, and what was expected.
     OSError
         Where the file cannot be read.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from studio.rbf import RBFRegressor
+    >>> model = RBFRegressor(n_neurons=3).fit([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 4.0, 9.0])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_model(f"{folder}/push.json", model, time_unit="s", duration=3.0)
+    ...     saved = load_model(f"{folder}/push.json")
+    >>> saved.time_unit, bool(saved.estimator.predict([1.5]) == model.predict([1.5]))
+    ('s', True)
 
     """
     table = Table(_document(Path(path)), str(path))

@@ -112,7 +112,21 @@ def rbf_from(settings: Table, learned: Table) -> RBFRegressor:
     infinite = learned.values.get("condition", 0) is None  # JSON has no infinity
     estimator.condition_ = math.inf if infinite else learned.number("condition")
     estimator.effective_dof_ = learned.number("effective_dof")
+    estimator.noise_ = _noise(learned, estimator)
+    estimator.covariance_root_ = learned.array(
+        "covariance_root", (len(estimator.centers_) + 1, estimator.rank_ + 1)
+    )
     return estimator
+
+
+def _noise(learned: Table, estimator: RBFRegressor) -> FloatArray | float | None:
+    if learned.values.get("noise", 0) is None:
+        return None
+    one = isinstance(estimator.bias_, float)
+    noise = learned.number("noise") if one else learned.array("noise", np.shape(estimator.bias_))
+    if np.any(np.less(noise, 0.0)):
+        raise learned.fault("noise", "no negative number")
+    return noise
 
 
 def newrb_from(settings: Table, learned: Table) -> NewrbRegressor:

@@ -81,6 +81,48 @@ def as_taught(values: FloatArray, targets: FloatArray) -> FloatArray | float:
     return values if targets.ndim == 2 else float(values[0])
 
 
+def demonstration_arrays(demonstrations: ArrayLike | Sequence[ArrayLike]) -> list[FloatArray]:
+    """Return demonstrations (K, T, D), or K of them (T_k, D), as a list of K arrays.
+
+    Raises
+    ------
+    ValueError
+        Where they are none, not finite, or not of one number of columns.
+
+    """
+    arrays = [finite_array(array, "a demonstration") for array in demonstrations]  # type: ignore[union-attr]
+    if not arrays or any(array.ndim != 2 or 0 in array.shape for array in arrays):
+        raise ValueError("demonstrations have shape (K, T, D), none of these zero")
+    if len({array.shape[1] for array in arrays}) > 1:
+        raise ValueError("all demonstrations have the same number of columns")
+    return arrays
+
+
+def stamp_arrays(
+    stamps: ArrayLike | Sequence[ArrayLike] | None, arrays: list[FloatArray]
+) -> list[FloatArray]:
+    """Return the stamps (T_k,) of each demonstration: given for all, for each, or 1 to T_k.
+
+    Raises
+    ------
+    ValueError
+        Where they are not finite, or not one a row.
+
+    """
+    lengths = [len(array) for array in arrays]
+    if stamps is None:
+        return [np.arange(1.0, length + 1.0) for length in lengths]
+    given: list[ArrayLike] = list(stamps)  # type: ignore[arg-type]
+    if given and np.ndim(given[0]) == 0:
+        given = [np.array(given)] * len(arrays)
+    times = [finite_array(each, "stamps") for each in given]
+    if [each.shape for each in times] != [(length,) for length in lengths]:
+        raise ValueError(
+            "stamps are one a row of the demonstrations, given once for all or for each of them"
+        )
+    return times
+
+
 def finite_array(values: ArrayLike, name: str) -> FloatArray:
     """Return a float64 array; raise ValueError in words, with the place of the first fault."""
     if issparse(values):

@@ -19,3 +19,22 @@ def naive_picks(design, targets, count):
         p = columns[:, pick].copy()
         columns -= np.outer(p, p @ columns) / (p @ p)
     return picks
+
+
+def naive_newrb(inputs, targets, spread, neurons):
+    """newrb straight from its formulas, samples (q,) and (q, k): deflate all, solve all anew."""
+    design = np.exp(-np.log(2.0) * np.square((inputs[:, None] - inputs) / spread))
+    columns, left, picks = design.copy(), np.ones(len(inputs), dtype=bool), []
+    for _ in range(neurons):
+        lengths = np.square(columns).sum(axis=0)
+        possible = np.outer(lengths, np.square(targets).sum(axis=0))
+        products = np.square(columns.T @ targets)
+        share = np.divide(products, possible, out=np.zeros_like(possible), where=possible > 0.0)
+        scores = np.square(share).sum(axis=1)
+        picks.append(int(np.argmax(np.where(left, scores, -1.0))))
+        left[picks[-1]] = False
+        p = columns[:, picks[-1]].copy()
+        columns -= np.outer(p, p @ columns) / (p @ p)
+        chosen = np.column_stack([design[:, picks], np.ones(len(inputs))])
+        weights = np.linalg.lstsq(chosen, targets, rcond=None)[0]
+    return inputs[picks], weights

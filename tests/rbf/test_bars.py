@@ -5,6 +5,7 @@ import pytest
 from scipy.interpolate import make_smoothing_spline
 
 from studio.rbf import NewrbRegressor, RBFRegressor, pooled_variance_floor
+from studio.rbf.basis import spread_to_width
 
 INDEX = np.arange(1.0, 143.0)
 SEEDS = range(20)
@@ -22,6 +23,8 @@ def floor_ratio(model, demonstrations):
         ({}, 10, 1.02),
         ({}, 20, 1.01),
         ({}, 50, 1.005),
+        ({"centers": "ols"}, 20, 1.01),
+        ({"centers": "ols"}, 50, 1.005),
         ({"centers": "random", "width": "dmax", "solver": "svd"}, 50, 1.01),
         ({"centers": "grid", "width": "dmax", "solver": "svd"}, 50, 1.01),
         ({"centers": "kmeans", "width": "dmax", "solver": "svd"}, 50, 1.01),
@@ -67,6 +70,14 @@ def test_between_the_samples_it_is_as_smooth_as_a_smoothing_spline(demonstration
         accelerations = [np.square(np.diff(curve, 2, axis=0)).mean() for curve in (found, spline)]
         assert np.sqrt(accelerations[0] / accelerations[1]) <= 1.1
         assert np.abs(found - spline).max() <= 0.01  # [rad]
+
+
+@pytest.mark.parametrize("spread", [1.0, 2.0])
+def test_greedy_centers_reach_the_floor_with_all_distinct_inputs(demonstrations, pool, spread):
+    for seed in SEEDS:
+        taught = demonstrations(seed)
+        model = RBFRegressor(142, "ols", spread_to_width(spread), "svd").fit(*pool(taught))
+        assert floor_ratio(model, taught) == pytest.approx(1.0, abs=1e-6)
 
 
 @pytest.mark.parametrize("spread", [1.0, 2.0])

@@ -3,7 +3,15 @@ import pytest
 from scipy.spatial.distance import cdist
 
 from studio.rbf.aggregation import distinct_inputs
-from studio.rbf.centers import grid_centers, kmeans_centers, place_centers, random_centers
+from studio.rbf.basis import gaussian_design
+from studio.rbf.centers import (
+    greedy_centers,
+    grid_centers,
+    kmeans_centers,
+    place_centers,
+    random_centers,
+)
+from tests.rbf.naive import naive_picks
 
 
 def data_of(inputs):
@@ -43,6 +51,26 @@ def test_more_centers_than_distinct_inputs(rule, features):
     assert np.isfinite(centers).all()
     inside = (centers >= data.inputs.min(axis=0)) & (centers <= data.inputs.max(axis=0))
     assert inside.all()
+
+
+def test_greedy_centers_are_those_of_a_naive_search_over_all_samples():
+    generator = np.random.default_rng(5)
+    inputs = np.repeat(np.arange(30.0), generator.integers(1, 5, size=30))[:, np.newaxis]
+    targets = np.sin(inputs / 4.0 + np.arange(2.0)) + 0.1 * generator.normal(size=(len(inputs), 2))
+    data = distinct_inputs(inputs, targets)
+    scaled, width = inputs / data.input_unit, 1.5 / data.input_unit
+    design = gaussian_design(scaled, data.inputs, width)
+    centered = targets - targets.mean(axis=0)
+    naive = naive_picks(design, centered, 20)
+    np.testing.assert_array_equal(greedy_centers(data, 20, width), data.inputs[naive])
+
+
+def test_greedy_centers_end_where_wide_gaussians_have_no_more_to_add():
+    inputs = np.arange(50.0)[:, np.newaxis]
+    data = distinct_inputs(inputs, np.sin(inputs / 9.0))
+    found = greedy_centers(data, 50, 20.0 / data.input_unit)
+    assert 3 < len(found) < 25
+    assert len(np.unique(found)) == len(found)
 
 
 def test_random_centers_are_distinct_inputs_while_they_last():
@@ -85,7 +113,7 @@ def test_own_centers_are_taken_in_the_unit_of_the_inputs():
 @pytest.mark.parametrize(
     ("rule", "words"),
     [
-        ("ring", "centers is one of 'grid', 'kmeans', 'random' or an array"),
+        ("ring", "centers is one of 'grid', 'kmeans', 'random', 'ols' or an"),
         ([[1.0, 2.0]], "2 features, but X has 1"),
         ([np.nan], "given centers cannot be used: X must be finite"),
         ([], "given centers cannot be used: found 0 samples"),

@@ -1,4 +1,5 @@
 import doctest
+import importlib
 import warnings
 
 import numpy as np
@@ -10,12 +11,16 @@ from sklearn.preprocessing import StandardScaler
 from sklearn.utils.estimator_checks import estimator_checks_generator
 from sklearn.utils.validation import check_is_fitted
 
-import studio.rbf.newrb
-import studio.rbf.regressor
+import studio.rbf
 from studio.rbf import NewrbRegressor, NotFittedError, RBFRegressor
 
 INDEX = np.arange(1.0, 143.0)
-LEARNERS = [RBFRegressor(random_state=0), NewrbRegressor(), NewrbRegressor(duplicates="matlab")]
+LEARNERS = [
+    RBFRegressor(random_state=0),
+    RBFRegressor(centers="ols"),
+    NewrbRegressor(),
+    NewrbRegressor(duplicates="matlab"),
+]
 DO_NOT_APPLY = {
     "check_fit1d": "inputs of one axis are welcome here: they are time",
     "check_estimators_unfitted": "asks for scikit-learn's NotFittedError, which is not imported",
@@ -84,8 +89,13 @@ def test_settings_are_judged_in_fit_only(learner):
     type(learner)(**dict.fromkeys(learner.get_params(), object()))  # raises nothing
 
 
-@pytest.mark.parametrize("module", [studio.rbf.regressor, studio.rbf.newrb])
-def test_examples_in_the_documentation_run(module):
-    results = doctest.testmod(module)
-    assert results.attempted >= 4
-    assert results.failed == 0
+@pytest.mark.parametrize("name", studio.rbf.__all__)
+def test_every_public_name_has_an_example_that_runs(name):
+    found = getattr(studio.rbf, name)
+    module = importlib.import_module(found.__module__)
+    examples = doctest.DocTestFinder().find(found, name, globs=vars(module).copy())
+    assert any(example.examples for example in examples)
+    runner = doctest.DocTestRunner()
+    for example in examples:
+        runner.run(example)
+    assert runner.summarize().failed == 0

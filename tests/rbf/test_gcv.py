@@ -80,7 +80,7 @@ def test_a_better_width_is_found_than_either_end():
 
 def test_width_candidates_span_spacing_to_extent():
     widths = width_candidates(INDEX[::3], INDEX)
-    assert widths[0] == pytest.approx(3.0)
+    assert widths[0] == pytest.approx(1.4 * 3.0)
     assert widths[-1] == pytest.approx(141.0)
     np.testing.assert_array_equal(width_candidates(INDEX[:1], INDEX[:1]), [1.0])
 

@@ -212,7 +212,7 @@ def test_every_cut_and_every_flipped_byte_is_refused_or_harmless(document, tmp_p
         (b"[" * 100_000, "not a JSON file"),
         (b"[]", "expected a JSON object, found \\[\\]"),
         (b"{}", "format: expected 'teaching-studio rbf model', found nothing"),
-        (b'{"format": "teaching-studio rbf model", "schema": 2}', "schema: expected 1, found 2"),
+        (b'{"format": "teaching-studio rbf model", "schema": 3}', "schema: expected 2, found 3"),
     ],
 )
 def test_what_is_no_model_is_refused_in_words(tmp_path, content, words):
