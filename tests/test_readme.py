@@ -1,6 +1,7 @@
 """What the README says is run: its Python, its commands, its format."""
 
 import json
+import os
 import re
 import shlex
 import subprocess
@@ -29,7 +30,7 @@ COMMANDS = [line.partition("#")[0].strip() for block in blocks("sh") for line in
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_commands_are_understood(command: str) -> None:
+def test_commands_are_understood(command: str, tmp_path: Path) -> None:
     """Each is run on a sample; those that open the browser are asked for their help instead."""
     name, *arguments = shlex.split(re.sub(r"[\[\]]", "", command))
     assert name == "studio"
@@ -41,7 +42,11 @@ def test_commands_are_understood(command: str) -> None:
     else:
         arguments.append("--help")
     done = subprocess.run(
-        [sys.executable, "-m", "studio", *arguments], cwd=ROOT, capture_output=True, check=False
+        [sys.executable, "-m", "studio", *arguments],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        check=False,
     )
     assert done.returncode == 0, done.stderr.decode()
 
