@@ -6,7 +6,7 @@ happens between the samples, and time. Demonstrations are left out whole, never 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -135,8 +135,8 @@ def sweep(
     found = {name: each for name, each in suggestions.items() if each is not None}
     table = Sweep(taught, floor.value, floor.reason, rows, found, {})
     plays = [(name, {"neurons": table.shown_row(name).neurons}, taught) for name in table.learners]
-    table.played.update(zip(table.learners, run_all(play, plays, jobs), strict=True))
-    return table
+    played = run_all(play, plays, jobs)
+    return replace(table, played=dict(zip(table.learners, played, strict=True)))
 
 
 def checked_neurons(neurons: Sequence[int]) -> tuple[int, ...]:

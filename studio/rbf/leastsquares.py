@@ -8,19 +8,19 @@ from scipy.linalg import solve_triangular
 from studio.rbf.basis import FloatArray
 
 DEPENDENT = 1e-10  # a column of which less than this share is new is left out, its weight 0
-MOSTLY_NEW = 0.3  # a column of which more than this share is new has lost no digit worth a second
+MOSTLY_NEW = 0.1  # a column of which more than this share is new has lost one digit at most
 
 
 def orthogonalized(columns: FloatArray, basis: FloatArray) -> FloatArray:
     """Return the part of columns (n, c) or (n,) that an orthonormal basis (n, b) does not span.
 
-    Projected out twice: what rounding leaves of the first time, the second removes. Where most of
+    Projected out twice: what rounding leaves of the first time, the second removes. Where much of
     a single column stays there is nothing worth removing (Daniel, Gragg, Kaufman, Stewart 1976).
     """
-    once = columns - basis @ (columns @ basis if columns.ndim == 1 else basis.T @ columns)
-    if columns.ndim == 1 and once @ once > MOSTLY_NEW**2 * (columns @ columns):
+    once: FloatArray = columns - basis.dot(basis.T.dot(columns))
+    if columns.ndim == 1 and once.dot(once) > MOSTLY_NEW**2 * columns.dot(columns):
         return once
-    twice: FloatArray = once - basis @ (once @ basis if columns.ndim == 1 else basis.T @ once)
+    twice: FloatArray = once - basis.dot(basis.T.dot(once))
     return twice
 
 
@@ -36,7 +36,7 @@ class GrowingLeastSquares:
         # More than the n + 1 columns that can be independent there never are.
         self._basis = np.empty((len(targets), len(targets) + 1), order="F")
         self._size = 0
-        self._kept: list[FloatArray] = []  # the columns that are independent
+        self._upper = np.zeros((len(targets) + 1, len(targets) + 1), order="F")  # R
         self._independent: list[bool] = []
         self.residual = targets.copy()
         self.add(root_counts)
@@ -44,22 +44,24 @@ class GrowingLeastSquares:
     def add(self, column: FloatArray) -> None:
         """Add a column (n,), its rows already scaled by the root counts; O(n b)."""
         column = np.ascontiguousarray(column)
-        new = orthogonalized(column, self._basis[:, : self._size])
-        length = math.sqrt(new @ new)
-        independent = length > DEPENDENT * math.sqrt(column @ column)
+        basis = self._basis[:, : self._size]
+        new = orthogonalized(column, basis)
+        length = math.sqrt(new.dot(new))
+        independent = length > DEPENDENT * math.sqrt(column.dot(column))
         self._independent.append(independent)
         if not independent:
             return
         new /= length
-        self._kept.append(column)
+        self._upper[: self._size, self._size] = column.dot(basis)
+        self._upper[self._size, self._size] = length
         self._basis[:, self._size] = new
         self._size += 1
-        self.residual -= new[:, np.newaxis] * (new @ self.residual)
+        self.residual -= np.multiply.outer(new, new.dot(self.residual))
 
     def solution(self) -> tuple[FloatArray, FloatArray]:
         """Return the bias (k,) and the weights (m, k) of all columns added since."""
         basis = self._basis[:, : self._size]
-        upper = basis.T @ np.column_stack(self._kept)  # R; below its diagonal is rounding only
+        upper = self._upper[: self._size, : self._size]
         weights = np.zeros((len(self._independent), self._targets.shape[1]))
         weights[self._independent] = solve_triangular(
             upper, basis.T @ self._targets, check_finite=False

@@ -204,8 +204,9 @@ def _grow(design: FloatArray, data: DistinctInputs, picks: Iterator[int], goal: 
         fit.add(design[:, pick])
         chosen.append(pick)
         distinct.add(pick)
-        mse = (data.within + np.square(fit.residual).sum(axis=0) / samples) * squared_units
-        total = float(mse.sum())
+        missed = np.add.reduce(fit.residual * fit.residual, axis=0)
+        mse = (data.within + missed / samples) * squared_units
+        total = float(np.add.reduce(mse))
         ratio = total / floor_sum if floor_sum > 0.0 else None
         history.append(GrowthStep(len(chosen), mse, ratio, len(distinct)))
         goal_met = total < goal * len(mse)

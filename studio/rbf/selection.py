@@ -39,6 +39,7 @@ def independent_picks(
     energies : (k,), ``d_s^T d_s`` over all samples
 
     """
+    design = np.asfortranarray(design)  # its columns are what is read
     squared = np.square(design).sum(axis=0)
     least, stale_below = DEPENDENT**2 * squared, STALE * squared
     roots = np.sqrt(energies)
@@ -49,26 +50,27 @@ def independent_picks(
     for size in range(design.shape[1]):
         chosen = basis[:, :size]
         stale = free & (squared < stale_below)
-        if stale.any():  # downdating has cost these too many digits
+        if np.count_nonzero(stale):  # downdating has cost these too many digits
             remainder = orthogonalized(design[:, stale], chosen)
             squared[stale] = np.square(remainder).sum(axis=0)
             stale_below[stale] = STALE * squared[stale]
             products[:, stale] = units.T @ remainder
         free &= squared > least
-        if not free.any():
+        if not np.count_nonzero(free):
             return
-        shares = np.square(products)
+        shares = products * products
         score = np.full(len(free), -1.0)
-        np.divide((shares * shares).sum(axis=0), squared * squared, out=score, where=free)
+        quartics = np.add.reduce(shares * shares, axis=0)
+        np.divide(quartics, squared * squared, out=score, where=free)
         pick = int(score.argmax())
         free[pick] = False
-        column = orthogonalized(np.ascontiguousarray(design[:, pick]), chosen)
-        column /= math.sqrt(column @ column)
+        column = orthogonalized(design[:, pick], chosen)
+        column /= math.sqrt(column.dot(column))
         basis[:, size] = column
         yield pick
-        along = column @ design
+        along = column.dot(design)
         squared -= along * along
-        products -= (column @ units)[:, np.newaxis] * along
+        products -= np.multiply.outer(column.dot(units), along)
 
 
 def deflated_picks(
