@@ -182,7 +182,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except BrokenPipeError:  # whoever reads has seen enough, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left to flush goes nowhere
         status = 1
-    except StudioError as error:
+    except (StudioError, OSError) as error:  # of the system's: a full disk, a closed door
         print(f"studio: {error}", file=sys.stderr)
         if getattr(command, "json", False):
             files: dict[str, Any] = {} if isinstance(command, Inspect) else {"files": []}

@@ -96,8 +96,10 @@ class RecordingWriter:
         """Finish the file with its index; without samples, remove it."""
         if self._file.closed:
             return
-        self._writer.finish()  # type: ignore[no-untyped-call]
-        self._file.close()
+        try:
+            self._writer.finish()  # type: ignore[no-untyped-call]
+        finally:
+            self._file.close()
         if not self.samples:
             self.path.unlink()
 

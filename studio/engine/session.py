@@ -63,14 +63,16 @@ class Session:
                 break
             self._attempt(partial(self._take_command, command))
         if not self._attempt(self._step):
-            self._hold()
+            self._attempt(self._hold)
         self.snapshot = self._draw()
         return self.snapshot
 
     def close(self) -> None:
         """End the session; what is being recorded is kept."""
-        self._activity.close()
-        self._activity.world.close()
+        try:
+            self._activity.close()
+        finally:
+            self._activity.world.close()
 
     def _attempt(self, work: Callable[[], None]) -> bool:
         """Do some work; an error in a file or a request becomes a message, the session lives."""
@@ -169,8 +171,9 @@ class Session:
 
     def _hold(self) -> None:
         """Hold still in the present world, whatever was going on."""
-        self._activity.close()
-        self._activity = Hold(self._activity.world)
+        ended = self._activity
+        self._activity = Hold(ended.world)  # first: a full disk keeps a recording from closing
+        ended.close()
 
     def _finish(self, stopped: bool = False) -> None:
         """Keep what the present activity has come to, then hold still."""

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mcap.writer import Writer
 
 from studio.engine import commands
 from studio.engine.commands import Command
@@ -101,6 +102,21 @@ def test_closing_while_recording_finishes_the_file(tmp_path: Path) -> None:
         session.tick()
     session.close()
     assert len(read_recording(tmp_path / "demonstration-001.mcap").samples) == 51
+
+
+def test_a_full_disk_is_said_and_the_session_lives(session: Session, monkeypatch) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    do(session, commands.UseDemonstrator(), commands.Record())
+    monkeypatch.setattr(Writer, "add_message", refuse)
+    monkeypatch.setattr(Writer, "finish", refuse)
+    stopped = session.tick()
+    assert stopped.mode is Mode.IDLE
+    assert stopped.message.is_error
+    assert "No space left" in stopped.message.text
+    monkeypatch.undo()
+    assert do(session, commands.Watch()).mode is Mode.WATCHING
 
 
 @pytest.mark.parametrize(
