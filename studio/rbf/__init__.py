@@ -5,6 +5,8 @@ scikit-learn's contract without importing it.
 
 RBFRegressor            the Gaussian network in one linear solve (Eq. 6 to 15, made safe)
 NewrbRegressor          MATLAB's newrb, which grows it neuron by neuron (Table I)
+StableField             the motion as a field x' = f(x) (Eq. 5), with a proof that it arrives
+PlainField              the same as the paper prints it, without one
 leave_one_demonstration_out, LeaveOneDemonstrationOut    the error on what was not seen
 suggest_neurons         how many are enough, and why
 smoothness              what a curve does between the samples
@@ -23,6 +25,7 @@ from studio.rbf.crossvalidation import (
 )
 from studio.rbf.newrb import GrowthStep, NewrbRegressor
 from studio.rbf.offgrid import Smoothness, smoothness
+from studio.rbf.plain_field import PlainField
 from studio.rbf.regressor import RBFRegressor
 from studio.rbf.score import (
     Floor,
@@ -31,19 +34,23 @@ from studio.rbf.score import (
     pooled_variance_floor,
     r_squared,
 )
+from studio.rbf.stable_field import Certificate, StableField
 from studio.rbf.storage import SavedModel, load_model, save_model
 from studio.rbf.suggestion import Suggestion, suggest_from, suggest_neurons
 
 __all__ = [
+    "Certificate",
     "Floor",
     "GrowthStep",
     "HeldOut",
     "LeaveOneDemonstrationOut",
     "NewrbRegressor",
     "NotFittedError",
+    "PlainField",
     "RBFRegressor",
     "SavedModel",
     "Smoothness",
+    "StableField",
     "Suggestion",
     "largest_error",
     "leave_one_demonstration_out",

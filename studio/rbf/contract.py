@@ -50,7 +50,7 @@ def change_settings(estimator: Any, settings: Mapping[str, Any]) -> None:
 
 def require_fitted(estimator: Any) -> None:
     """Raise NotFittedError unless `fit` has been called."""
-    if not hasattr(estimator, "weights_"):
+    if not hasattr(estimator, "n_features_in_"):  # what `fit` sets last
         raise NotFittedError(f"this {type(estimator).__name__} was taught nothing yet: call fit")
 
 

@@ -13,6 +13,7 @@ input that counts samples does not say how long the motion takes.
 """
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Any
@@ -21,12 +22,22 @@ import numpy as np
 
 from studio.rbf.contract import get_settings, require_fitted
 from studio.rbf.newrb import NewrbRegressor
+from studio.rbf.plain_field import PlainField
 from studio.rbf.regressor import RBFRegressor
+from studio.rbf.stable_field import StableField
+from studio.rbf.storage_fields import plain_field_from, stable_field_from
 from studio.rbf.storage_reader import Table, newrb_from, rbf_from
 from studio.rbf.validation import number_above
 
 FORMAT = "teaching-studio rbf model"
 SCHEMA = 2  # raise it whenever a file of the old form would be misread
+Saved = RBFRegressor | NewrbRegressor | StableField | PlainField
+_READERS: dict[str, Callable[[Table, Table], Saved]] = {
+    "RBFRegressor": rbf_from,
+    "NewrbRegressor": newrb_from,
+    "StableField": stable_field_from,
+    "PlainField": plain_field_from,
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +53,14 @@ class SavedModel:
 
     """
 
-    estimator: RBFRegressor | NewrbRegressor
+    estimator: Saved
     time_unit: str  # of the inputs: "index", "s", ...
     duration: float  # [s], how long the motion takes
 
 
 def save_model(
     path: str | Path,
-    estimator: RBFRegressor | NewrbRegressor,
+    estimator: Saved,
     *,
     time_unit: str,
     duration: float,
@@ -61,7 +72,7 @@ def save_model(
     Parameters
     ----------
     path : where to
-    estimator : a fitted RBFRegressor or NewrbRegressor
+    estimator : a fitted RBFRegressor, NewrbRegressor, StableField or PlainField
     time_unit : unit of the inputs, such as "index" (the number of a sample) or "s"
     duration : how long the motion takes [s]
 
@@ -97,12 +108,7 @@ def save_model(
             "unit": time_unit,
             "duration_s": number_above(duration, "duration", 0.0, inclusive=False),
         },
-        "settings": {name: _plain(value) for name, value in get_settings(estimator).items()},
-        "learned": {
-            name.removesuffix("_"): _plain(value)
-            for name, value in vars(estimator).items()
-            if name.endswith("_")
-        },
+        **_contents(estimator),
     }
     path = Path(path)
     unfinished = path.with_name(path.name + ".part")
@@ -137,15 +143,23 @@ def load_model(path: str | Path) -> SavedModel:
     table.expect("format", FORMAT)
     table.expect("schema", SCHEMA)
     learner = table.text("learner")
-    if learner not in ("RBFRegressor", "NewrbRegressor"):
-        raise table.fault("learner", '"RBFRegressor" or "NewrbRegressor"')
-    read = rbf_from if learner == "RBFRegressor" else newrb_from
+    if learner not in _READERS:
+        raise table.fault("learner", " or ".join(f'"{name}"' for name in _READERS))
     time = table.table("time")
     return SavedModel(
-        estimator=read(table.table("settings"), table.table("learned")),
+        estimator=_READERS[learner](table.table("settings"), table.table("learned")),
         time_unit=time.text("unit"),
         duration=time.number("duration_s", positive=True),
     )
+
+
+def _contents(estimator: Any) -> dict[str, Any]:
+    """Return settings and learned values of a learner, or of one that another one is made of."""
+    learned = {name: value for name, value in vars(estimator).items() if name.endswith("_")}
+    return {
+        "settings": {name: _plain(value) for name, value in get_settings(estimator).items()},
+        "learned": {name.removesuffix("_"): _plain(value) for name, value in learned.items()},
+    }
 
 
 def _document(path: Path) -> Any:
@@ -162,6 +176,8 @@ def _plain(value: Any) -> Any:
         return None
     if isinstance(value, np.ndarray | np.generic):
         return _plain(value.tolist())
+    if isinstance(value, RBFRegressor):
+        return _contents(value)
     if is_dataclass(value):
         return {field.name: _plain(getattr(value, field.name)) for field in fields(value)}
     if isinstance(value, list | tuple):

@@ -103,7 +103,7 @@ def _shown(value: Any) -> str:
 
 def rbf_from(settings: Table, learned: Table) -> RBFRegressor:
     """Return the RBFRegressor of a model's settings and learned values."""
-    estimator = RBFRegressor(**_settings(settings, RBFRegressor))
+    estimator = RBFRegressor(**settings_of(settings, RBFRegressor))
     if isinstance(estimator.centers, list):
         estimator.centers = np.asarray(estimator.centers, dtype=np.float64)
     _read_network(learned, estimator)
@@ -131,7 +131,7 @@ def _noise(learned: Table, estimator: RBFRegressor) -> FloatArray | float | None
 
 def newrb_from(settings: Table, learned: Table) -> NewrbRegressor:
     """Return the NewrbRegressor of a model's settings and learned values."""
-    estimator = NewrbRegressor(**_settings(settings, NewrbRegressor))
+    estimator = NewrbRegressor(**settings_of(settings, NewrbRegressor))
     _read_network(learned, estimator)
     outputs = estimator.weights_.reshape(len(estimator.centers_), -1).shape[1]
     count = len(estimator.centers_)
@@ -162,9 +162,8 @@ def _step(step: Table, neurons: int, outputs: int) -> GrowthStep:
     )
 
 
-def _settings(
-    settings: Table, learner: type[RBFRegressor] | type[NewrbRegressor]
-) -> dict[str, Any]:
+def settings_of(settings: Table, learner: type[Any]) -> dict[str, Any]:
+    """Return a learner's settings; raise ValueError where they are not those that it has."""
     names = {field.name for field in fields(learner)}
     if set(settings.values) != names:
         raise ValueError(
