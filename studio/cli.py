@@ -21,11 +21,10 @@ from studio.engine.report import as_json, as_text
 from studio.engine.resources import recordings_folder
 from studio.engine.sources import SkeletonRecording
 from studio.engine.sources.demonstrator import demonstrate
-from studio.engine.teaching import LearnerSettings
+from studio.engine.teaching import LearnerName, LearnerSettings
 from studio.sweep_command import Sweep
 
 Files = Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="FILE...")]
-Learner = Literal["rbf", "newrb"]
 Mapping = Literal["exact", "paper"]
 Interpolation = Literal["even", "random"]
 
@@ -62,8 +61,10 @@ class Demo:
     """How many takes the demonstrator teaches."""
     neurons: int = 50
     """Neurons of the network."""
-    learner: Learner = "rbf"
-    """rbf: Eq. 13 and a truncated SVD for Eq. 14. newrb: MATLAB's greedy network, spread 1."""
+    learner: LearnerName = "rbf"
+    """rbf: Eq. 13 and a truncated SVD for Eq. 14. newrb: MATLAB's greedy network, spread 1. field:
+    Eq. 5 as two stable fields, there and back. plain-field: Eq. 5 as printed, one field, which
+    fails."""
     mapping: Mapping = "exact"
     """exact: all four joints. paper: s0, s1, e1 with e0 = 0, so 142 x 3; the forearm is then off by
     48 degrees (median of real recordings)."""
@@ -117,8 +118,10 @@ class Teach:
     """sequence: the left hand signs Lasso, Open, Closed. open: follow whoever is in sight."""
     neurons: int = 50
     """Neurons of the network."""
-    learner: Learner = "rbf"
-    """rbf: Eq. 13 and a truncated SVD for Eq. 14. newrb: MATLAB's greedy network, spread 1."""
+    learner: LearnerName = "rbf"
+    """rbf: Eq. 13 and a truncated SVD for Eq. 14. newrb: MATLAB's greedy network, spread 1. field:
+    Eq. 5 as two stable fields, there and back. plain-field: Eq. 5 as printed, one field, which
+    fails."""
     interpolation: Interpolation = "even"
     """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
     save: Path | None = None

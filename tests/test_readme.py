@@ -1,4 +1,4 @@
-"""What the README says is run: its Python, its commands, its format."""
+"""What README and guide say is run: Python, commands, the format; links lead somewhere."""
 
 import json
 import os
@@ -16,11 +16,15 @@ ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text()
 
 
-def blocks(language: str) -> list[str]:
-    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+FIELD_PAGE = (ROOT / "docs" / "field.md").read_text()
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
-@pytest.mark.parametrize("code", blocks("python"))
+def blocks(language: str, text: str = README) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
+
+
+@pytest.mark.parametrize("code", blocks("python") + blocks("python", FIELD_PAGE))
 def test_python_runs(code: str, capfd) -> None:
     exec(compile(code, "README.md", "exec"), {})
     assert capfd.readouterr().out
@@ -68,6 +72,12 @@ def test_the_two_commands_are_one_line_each() -> None:
     for end in ("studio", "pytest"):
         (line,) = re.findall(rf"^    (python3 -m venv .*/{end})$", README, re.MULTILINE)
         assert line.count("&&") == 2
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_link_to_a_file_leads_to_one(page: Path) -> None:
+    for link in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+        assert (page.parent / link).exists(), link
 
 
 def test_every_picture_exists() -> None:

@@ -35,6 +35,7 @@ def _nothing(setup: Setup) -> dict[str, Any]:
         "mse": None,
         "floor": None,
         "floor_note": "nothing was taught",
+        "remark": "",
         "reproduction": None,
         "demonstrations": [],
     }
@@ -55,6 +56,7 @@ def as_results(
         "mse": _by_joint(joints, lesson.mse),
         "floor": None if floor is None else _by_joint(joints, floor),
         "floor_note": lesson.floor_note,
+        "remark": lesson.remark,
         "reproduction": {
             **_deviation(joints, reproduction.deviation),
             "block_down": reproduction.performance.block_down,
@@ -139,6 +141,8 @@ def _joint_lines(lesson: Lesson, reproduction: Reproduction) -> list[str]:
         )
     if lesson.floor_note:
         lines.append(f"  (no floor: {lesson.floor_note})")
+    if lesson.remark:
+        lines.append(f"  ({lesson.remark})")
     return lines
 
 

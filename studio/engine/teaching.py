@@ -8,6 +8,7 @@ import numpy as np
 
 from studio.engine.demonstration import SAMPLES, Demonstration, DemonstrationSet, resample
 from studio.engine.errors import StudioError
+from studio.engine.field_motion import OnePlainField, PushAndReturn
 from studio.engine.measures import Deviation, deviation
 from studio.engine.performance import (
     Performance,
@@ -19,7 +20,7 @@ from studio.engine.performance import (
 from studio.engine.skeleton import FloatArray
 from studio.rbf import NewrbRegressor, RBFRegressor, pooled_variance_floor
 
-LearnerName = Literal["rbf", "newrb"]
+LearnerName = Literal["rbf", "newrb", "field", "plain-field"]
 MOST_NEURONS = 1000
 
 
@@ -38,6 +39,8 @@ class Model(Protocol):
 LEARNERS: dict[LearnerName, Callable[[int], Model]] = {
     "rbf": lambda neurons: RBFRegressor(neurons, centers="grid", width="dmax", solver="svd"),
     "newrb": lambda neurons: NewrbRegressor(max_neurons=neurons),
+    "field": PushAndReturn,
+    "plain-field": OnePlainField,
 }
 # The paper's t is the sample's index, and newrb's spread is defined in its unit.
 INDEX_TIME = np.arange(1.0, SAMPLES + 1.0)
@@ -68,6 +71,7 @@ class Lesson:
     mse: FloatArray  # (D,) [rad²] over all demonstrations
     floor: FloatArray | None  # (D,) [rad²], below which no network gets
     floor_note: str  # why there is no floor, or nothing
+    remark: str = ""  # what the learner says of itself: a field's certificate
 
     def trajectory(self) -> Trajectory:
         """Return the network's output over the demonstrations' mean duration."""
@@ -109,7 +113,8 @@ def learn(taught: DemonstrationSet, settings: LearnerSettings) -> Lesson:
     curve = model.predict(INDEX_TIME)
     mse = np.mean((taught.rows - curve) ** 2, axis=(0, 1))
     floor = pooled_variance_floor(taught.rows)
-    return Lesson(settings, taught, model, curve, mse, floor.value, floor.reason)
+    remark = getattr(model, "remark", "")
+    return Lesson(settings, taught, model, curve, mse, floor.value, floor.reason, remark)
 
 
 def reproduce(lesson: Lesson) -> Reproduction:

@@ -13,6 +13,8 @@ from studio.panels.readiness import fitting, why_not_train
 LEARNER_LABELS: dict[LearnerName, str] = {
     "rbf": "RBF, least squares",
     "newrb": "newrb, greedy",
+    "field": "stable fields, there and back",
+    "plain-field": "one plain field (fails)",
 }
 MOST_NEURONS = 300  # the paper's Table I goes to 250
 
@@ -58,7 +60,8 @@ def learned(lesson: Lesson) -> str:
             ratio = f"{lesson.mse[i] / lesson.floor[i]:.4f}" if lesson.floor[i] > 0 else "–"
         rows.append((joint, f"{lesson.mse[i]:.2e}", floor, ratio))
     numbers = markup.table(("joint", "MSE [rad²]", "floor [rad²]", "ratio"), rows)
-    return markup.block(title) + numbers + markup.note(_meaning(lesson))
+    remark = markup.note(lesson.remark) if lesson.remark else ""
+    return markup.block(title) + numbers + remark + markup.note(_meaning(lesson))
 
 
 def _meaning(lesson: Lesson) -> str:

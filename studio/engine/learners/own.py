@@ -3,6 +3,7 @@
 import numpy as np
 from scipy.interpolate import make_smoothing_spline
 
+from studio.engine.field_motion import PushAndReturn
 from studio.engine.learners.kind import BUDGET, LearnerKind, grid
 from studio.engine.skeleton import FloatArray
 from studio.engine.teaching import Model
@@ -63,6 +64,13 @@ OWN = (
     LearnerKind("rbf", "RBF by Eq. 13 and 14", _paper_network, _COUNTS, network=True),
     LearnerKind("gcv", "RBF, width and ridge by GCV", _gcv_network, _COUNTS, network=True),
     LearnerKind("ols", "RBF, greedy centers, GCV", _greedy_network, _COUNTS, network=True),
+    LearnerKind(
+        "field",
+        "Eq. 5: stable fields there and back",
+        PushAndReturn,
+        grid(neurons=(5, 8, 10, 15, 20, 30), bound=(0.5, 0.8)),
+        network=True,
+    ),
     LearnerKind(
         "spline",
         "smoothing spline",
