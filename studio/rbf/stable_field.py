@@ -25,6 +25,14 @@ class Certificate:
     whole space, so ``V(x) = ||z||^2`` is smooth, zero at the goal alone, and grows without bound
     away from it. Along the field ``z' = -rate(z) z``, so ``V' = -2 rate(z) V``, and the rate is
     never below `slowest_rate`: V falls at least as ``exp(-2 slowest_rate t)`` from every start.
+
+    Examples
+    --------
+    >>> Certificate(steepness=0.5, slowest_rate=0.1, fastest_rate=2.0).holds
+    True
+    >>> print(Certificate(steepness=1.5, slowest_rate=0.1, fastest_rate=2.0))
+    global convergence DOES NOT HOLD: steepness 1.500 (below 1), rate 0.1 to 2 (above 0)
+
     """
 
     steepness: float  # largest ||v|| / (sigma sqrt(e)) of all translations
