@@ -34,9 +34,10 @@ class Sweep:
     neurons: tuple[int, ...] = PAPER_NEURONS
     """Numbers of neurons; the paper's by default."""
     learner: tuple[str, ...] = DEFAULT_LEARNERS
-    """newrb, rbf, gcv, ols and field are networks, a table row for each number of neurons. spline,
-    gp, kernel-ridge, mlp, gmr, dmp, promp have none: with one of them, or with all, every learner
-    named is tuned by leaving out one demonstration at a time, and compared."""
+    """newrb, rbf, gcv, ols and field are networks, a table row for each number of neurons (field:
+    of Gaussians in each of two maps; it keeps no time, and takes long). spline, gp, kernel-ridge,
+    mlp, gmr, dmp, promp have none: with one of them, or with all, every learner named is tuned by
+    leaving out one demonstration at a time, and compared."""
     arm: Literal["left", "right"] = "left"
     """The arm that was taught."""
     mapping: Literal["exact", "paper"] = "exact"

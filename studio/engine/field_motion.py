@@ -9,18 +9,20 @@ Both are learners as `studio.engine.teaching.Model` asks for: they answer with t
 fields take from the demonstrations' mean start, at the time asked for.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from studio.engine.errors import StudioError
 from studio.engine.skeleton import FloatArray
 from studio.rbf import PlainField, StableField
 
-STEP = 0.25  # of a unit of time, between points of a path: a quarter of the demonstrations' sample
+STEPS = 568  # in a demonstration's duration, between points of a path: four a sample of the 142
 ARRIVED = 0.02  # of a leg's reach: so near its goal, the next leg begins
 RETURNS = 0.25  # of the reach: a motion that ends nearer than this to its turning point stays there
-LONGEST = 4.0  # times the demonstrated duration, after which a leg ends wherever it is
+LONGEST = 4  # times the demonstrated duration, after which a leg ends wherever it is
 Demonstrations = Sequence[tuple[FloatArray, FloatArray]]  # times (T,) and joints (T, D) [rad]
 
 
@@ -38,11 +40,11 @@ class PushAndReturn:
         self.fields = tuple(
             StableField(n_translations=self.neurons, bound=self.bound).fit(leg) for leg in legs
         )
-        longest = LONGEST * max(times[-1] - times[0] for times, _ in taught)
+        step = _duration(taught) / STEPS
         paths = [np.mean([rows[:1] for _, rows in taught], axis=0)]
         for field in self.fields:
-            paths.append(_until_arrived(field, paths[-1][-1], longest)[1:])
-        self._path = _spline(np.concatenate(paths))
+            paths.append(_until_arrived(field, paths[-1][-1], step)[1:])
+        self._path = _spline(np.concatenate(paths), step)
         self._first = float(taught[0][0][0])
         return self
 
@@ -55,7 +57,8 @@ class PushAndReturn:
         """The fields' certificates in words."""
         names = ("there", "back")[: len(self.fields)]
         certificates = [
-            f"field {name}: {field.certificate_}"
+            f"field {name}: {field.certificate_}, {math.degrees(field.error_):.1f} deg from what "
+            "was shown"
             for name, field in zip(names, self.fields, strict=True)
         ]
         return "; ".join([*certificates, "fields keep no time: compare paths, not times"])
@@ -71,17 +74,18 @@ class OnePlainField:
         """Learn joints (n, D) [rad] from demonstrations one after another, X (n,) their times."""
         taught = split_where_time_restarts(X, Y)
         start = np.mean([rows[0] for _, rows in taught], axis=0)
-        duration = max(times[-1] - times[0] for times, _ in taught)
-        field = PlainField(n_neurons=self.neurons).fit(taught)
-        path = field.rollout(start, STEP, int(duration / STEP) + 1)
+        step = _duration(taught) / STEPS
+        path = PlainField(n_neurons=self.neurons).fit(taught).rollout(start, step, STEPS)
         reach = max(_from_start(rows).max() for _, rows in taught)
+        if not reach > 0.0:
+            raise StudioError("plain-field: nothing moves in these demonstrations")
         share = _from_start(path).max() / reach
         short = np.linalg.norm(path[-1] - np.mean([rows[-1] for _, rows in taught], axis=0))
         self.remark = (
             f"one field for both ways, nothing certified: it gets {100.0 * share:.0f} % as far "
             f"from its start as the demonstrations, and stops {short:.2f} rad from their end"
         )
-        self._path = _spline(path)
+        self._path = _spline(path, step)
         self._first = float(taught[0][0][0])
         return self
 
@@ -105,11 +109,17 @@ def legs_of(taught: Demonstrations) -> tuple[Demonstrations, ...]:
         for (times, rows), turn in zip(taught, turns, strict=True)
     ]
     back = [(times[turn:], rows[turn:]) for (times, rows), turn in zip(taught, turns, strict=True)]
-    ways_back = [
-        np.linalg.norm(rows[-1] - rows[0]) / _from_start(whole).max()
+    returning = [
+        bool(np.linalg.norm(rows[-1] - rows[0]) > RETURNS * _from_start(whole).max())
         for (_, rows), (_, whole) in zip(back, taught, strict=True)
     ]
-    return (there, back) if np.mean(ways_back) > RETURNS else (taught,)
+    if len(set(returning)) > 1:
+        odd = 1 + returning.index(returning.count(True) < len(returning) / 2)
+        raise StudioError(
+            f"field: some demonstrations come back and others stay where they turn (number {odd} "
+            "differs from most): leave out one kind"
+        )
+    return (there, back) if returning[0] else (taught,)
 
 
 def _from_start(rows: FloatArray) -> FloatArray:
@@ -117,15 +127,19 @@ def _from_start(rows: FloatArray) -> FloatArray:
     return distances
 
 
-def _until_arrived(field: StableField, start: FloatArray, longest: float) -> FloatArray:
+def _duration(taught: Demonstrations) -> float:
+    return float(max(times[-1] - times[0] for times, _ in taught))
+
+
+def _until_arrived(field: StableField, start: FloatArray, step: float) -> FloatArray:
     """Return a field's path (n, D) up to where it has as good as reached its goal."""
-    path = field.rollout(start, STEP, int(longest / STEP))
+    path = field.rollout(start, step, LONGEST * STEPS)
     far = np.linalg.norm(path - field.goal_, axis=1) > ARRIVED * field.unit_
     return path[: int(np.argmin(far)) + 1] if not far.all() else path
 
 
-def _spline(path: FloatArray) -> CubicSpline:
-    return CubicSpline(STEP * np.arange(len(path)), path)
+def _spline(path: FloatArray, step: float) -> CubicSpline:
+    return CubicSpline(step * np.arange(len(path)), path)
 
 
 def _at(path: CubicSpline, times: FloatArray) -> FloatArray:

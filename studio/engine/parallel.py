@@ -29,9 +29,11 @@ def run_all(
     Raises
     ------
     StudioError
-        Where several jobs are asked for and joblib is not installed.
+        Where fewer than one job is asked for, or several are and joblib is not installed.
 
     """
+    if jobs is not None and jobs < 1:
+        raise StudioError(f"jobs: how many at once, 1 or more, not {jobs}")
     try:
         from joblib import Parallel, delayed  # noqa: PLC0415 - it comes with an extra
     except ModuleNotFoundError:

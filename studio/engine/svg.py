@@ -44,7 +44,7 @@ class Chart:
     y_label: str
     lines: tuple[Line, ...]
     boxes: tuple[Box, ...] = ()
-    size: tuple[int, int] = (300, 210)  # [px]
+    size: tuple[int, int] = (292, 205)  # [px], four of them on a page
     log: bool = False  # of the y axis
     equal: bool = False  # whether a unit is as long on both axes
 

@@ -18,7 +18,7 @@ from studio.engine.measures import Deviation, deviation
 from studio.engine.parallel import run_all
 from studio.engine.performance import Performance, perform
 from studio.engine.skeleton import FloatArray
-from studio.engine.teaching import INDEX_TIME, MOST_NEURONS, model_as_trajectory
+from studio.engine.teaching import INDEX_TIME, MOST_NEURONS, model_as_trajectory, remark_of
 from studio.rbf import (
     Suggestion,
     largest_error,
@@ -67,6 +67,7 @@ class Played:
 
     performance: Performance
     deviation: Deviation  # from the mean demonstration as sent
+    remark: str = ""  # what the learner says of itself
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +182,8 @@ def play(task: tuple[str, Settings, DemonstrationSet]) -> Played:
     model = kind_of(name).model(settings).fit(*stacked(taught.rows))
     trajectory = model_as_trajectory(model, taught.duration)
     performance = perform(trajectory, taught.duration, taught.side, taught.mapping)
-    return Played(performance, deviation(performance, taught.mean, taught.joints))
+    error = deviation(performance, taught.mean, taught.joints)
+    return Played(performance, error, remark_of(model))
 
 
 def stacked(rows: FloatArray) -> tuple[FloatArray, FloatArray]:

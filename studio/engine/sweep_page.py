@@ -107,8 +107,8 @@ _COLUMNS = """<dl>
  through the mean demonstration. Far above 1 the curve ripples where no sample sees it.</dd>
 <dt>ripple</dt><dd>the largest distance from that spline.</dd>
 <dt>fit</dt><dd>the quickest of three fits on this machine.</dd>
-<dt>marked row</dt><dd>the smallest network within 1 % of the floor and of the best held-out error,
- if there is one; Baxter played it.</dd></dl>"""
+<dt>marked row</dt><dd>the smallest network within 1 % of the floor and of the best held-out error;
+ where none is, the smallest within 1 % of that error alone. Baxter played it.</dd></dl>"""
 
 
 def findings(table: Sweep) -> list[str]:
@@ -201,8 +201,8 @@ def _contest(contestants: Sequence[Contestant]) -> str:
 
 _PATHS = (
     "Baxter alone, by the networks of the marked rows, as measured. The hand’s error is its mean "
-    "distance from the mean demonstration at equal times, and once time is warped: the difference "
-    "is the arm’s lag."
+    "distance from the mean demonstration at equal times, and once time is warped: of a network of "
+    "time most of the difference is the arm’s lag; a field keeps no time at all."
 )
 
 
@@ -212,9 +212,14 @@ def _played_table(table: Sweep) -> str:
         f"<td>{table.shown_row(name).neurons}</td>{_played_cells(played)}</tr>"
         for name, played in table.played.items()
     )
+    remarks = "".join(
+        f'<p class="note">{escape(label_of(name))}: {escape(played.remark)}.</p>'
+        for name, played in table.played.items()
+        if played.remark
+    )
     return (
         '<table><thead><tr><th class="name">Baxter alone</th><th>neurons</th>'
-        f"{_PLAYED_HEAD}</tr></thead><tbody>{rows}</tbody></table>"
+        f"{_PLAYED_HEAD}</tr></thead><tbody>{rows}</tbody></table>{remarks}"
     )
 
 

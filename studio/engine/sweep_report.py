@@ -110,7 +110,8 @@ def _quality_line(quality: Quality) -> str:
 
 def _played_line(played: Played) -> str:
     down = "the block falls" if played.performance.block_down else "the block stays up"
-    return f"{down}, the hand is {1000.0 * played.deviation.hand_mean:.1f} mm off in the mean."
+    off = f"{down}, the hand is {1000.0 * played.deviation.hand_mean:.1f} mm off in the mean."
+    return f"{off}\n  ({played.remark})" if played.remark else off
 
 
 def _comparison_lines(contestants: Sequence[Contestant]) -> list[str]:
@@ -170,6 +171,7 @@ def _quality(joints: Sequence[str], quality: Quality) -> dict[str, Any]:
 def _played(played: Played) -> dict[str, Any]:
     return {
         "block_down": played.performance.block_down,
+        "remark": played.remark,
         "hand_error_mm": {
             "mean": 1000.0 * played.deviation.hand_mean,
             "max": 1000.0 * played.deviation.hand_max,

@@ -105,6 +105,12 @@ def model_as_trajectory(model: Model, duration: float) -> Trajectory:
     return at
 
 
+def remark_of(model: Model) -> str:
+    """Return what a learner says of itself, such as a field's certificate, or nothing."""
+    remark: str = getattr(model, "remark", "")
+    return remark
+
+
 def learn(taught: DemonstrationSet, settings: LearnerSettings) -> Lesson:
     """Train a network on index time; every demonstration's row i has the input i."""
     count = len(taught.rows)
@@ -113,8 +119,7 @@ def learn(taught: DemonstrationSet, settings: LearnerSettings) -> Lesson:
     curve = model.predict(INDEX_TIME)
     mse = np.mean((taught.rows - curve) ** 2, axis=(0, 1))
     floor = pooled_variance_floor(taught.rows)
-    remark = getattr(model, "remark", "")
-    return Lesson(settings, taught, model, curve, mse, floor.value, floor.reason, remark)
+    return Lesson(settings, taught, model, curve, mse, floor.value, floor.reason, remark_of(model))
 
 
 def reproduce(lesson: Lesson) -> Reproduction:

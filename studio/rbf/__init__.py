@@ -17,6 +17,7 @@ save_model, load_model  one JSON file, exact in float64
 Equation numbers are those of the source paper; ``seeds/equations.md`` lists where each one lives.
 """
 
+from studio.rbf.certificate import Certificate
 from studio.rbf.contract import NotFittedError
 from studio.rbf.crossvalidation import (
     HeldOut,
@@ -34,7 +35,7 @@ from studio.rbf.score import (
     pooled_variance_floor,
     r_squared,
 )
-from studio.rbf.stable_field import Certificate, StableField
+from studio.rbf.stable_field import StableField
 from studio.rbf.storage import SavedModel, load_model, save_model
 from studio.rbf.suggestion import Suggestion, suggest_from, suggest_neurons
 

@@ -92,7 +92,8 @@ class Diffeomorphism:
         for center, shift, width in zip(self.centers, self.shifts, self.widths, strict=True):
             relative = (moved - center) / width
             shares = _shares(relative)
-            changes = -shares * np.einsum("nd,nd->n", relative, pushed) / width
+            # shares first: far away they are 0, and the rest would be 0 times infinity
+            changes = -np.einsum("nd,nd->n", shares[:, np.newaxis] * relative, pushed) / width
             moved = moved + shares[:, np.newaxis] * shift
             pushed = pushed + changes[:, np.newaxis] * shift
         return moved, pushed

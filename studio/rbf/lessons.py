@@ -15,7 +15,6 @@ from studio.rbf.trajectories import Trajectory
 PATH_POINTS = 40  # a path; the shapes of handwriting lose nothing that a person's repeats share
 RESTING = 0.01  # [reach] what moves less than this is a hand at rest, or noise
 NEAREST_START = 0.02  # [reach] a start this near the goal is the goal
-SMALLEST = 1e-140  # reaches whose squares float64 holds
 FARTHEST_END = 0.25  # [reach] an end this far from the goal is another goal
 
 
@@ -62,10 +61,6 @@ def lesson_from(trajectories: Sequence[Trajectory], goal: FloatArray | None) -> 
     """
     if goal is None:
         goal = np.mean([trajectory.positions[-1] for trajectory in trajectories], axis=0)
-    with np.errstate(over="ignore"):
-        largest = max(float(np.ptp(each.positions, axis=0).max()) for each in trajectories)
-    if largest and not SMALLEST < largest < 1.0 / SMALLEST:
-        raise ValueError(f"demonstrations that reach {largest:.3g} far need another unit")
     walks = [
         _walk(trajectory, goal, f"demonstration {number}")
         for number, trajectory in enumerate(trajectories, start=1)

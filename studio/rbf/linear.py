@@ -32,10 +32,12 @@ def truncated_svd(design: FloatArray, rcond: float) -> TruncatedSVD:
     """Decompose a design (n, m) and drop singular values below ``rcond``.
 
     The cut is relative to the largest one, but never below ``rcond`` itself: a Gaussian is 1 at
-    its center, so a direction that weak is one that no sample is near enough to teach.
+    its center, so a direction that weak is one that no sample is near enough to teach. What the
+    decomposition's own rounding makes up is always dropped, whatever ``rcond``.
     """
     left, singular, right = np.linalg.svd(design, full_matrices=False)
-    kept = singular > rcond * max(singular[0], 1.0)
+    cut = max(rcond, np.finfo(np.float64).eps * max(design.shape))
+    kept = singular > cut * max(singular[0], 1.0)
     smallest = float(singular[-1])
     return TruncatedSVD(
         left=left[:, kept],

@@ -19,6 +19,7 @@ from studio.rbf.refinement import Objective
 FIRST_WIDTHS = np.geomspace(0.05, 2.4, 12)  # [reach] what the greedy search tries
 GREEDY_STRIDE = 2  # it looks at every second point of a path: enough to begin with
 GREEDY_SHARES = (0.95, 0.8, 0.6, 0.4, 0.25)  # [bound] below 1: its squashed shift is infinite
+MOST_CANDIDATES = 200  # for a center, however many demonstrations there are
 TRIAL = 60  # iterations until a first chain shows what it is good for
 GOAL_WEIGHT = 5.0  # of the goal in the greedy search, where all paths meet
 MEMORY = 20  # pairs that L-BFGS remembers
@@ -100,7 +101,8 @@ def _best_translation(
     points: FloatArray, missing: FloatArray, weights: FloatArray, bound: float
 ) -> Diffeomorphism:
     """Return the translation of points (n, d) that leaves the least of what is missing (n, d)."""
-    squared = cdist(points, points, "sqeuclidean")
+    candidates = points[:: -(-len(points) // MOST_CANDIDATES)]
+    squared = cdist(candidates, points, "sqeuclidean")
     best_gain, best = -1.0, None
     for width in FIRST_WIDTHS:
         shares = np.exp(-0.5 * squared / width**2)  # of every point (columns) in every center's
@@ -116,7 +118,7 @@ def _best_translation(
         place = int(np.argmax(gains))
         if gains[place] > best_gain:
             best_gain = gains[place]
-            best = Diffeomorphism(points[[place]], shifts[[place]], np.array([width]))
+            best = Diffeomorphism(candidates[[place]], shifts[[place]], np.array([width]))
     if best is None:
         raise ValueError("the paths are too far apart for a translation to be judged")
     return best

@@ -133,6 +133,8 @@ class NewrbRegressor:
         self.bias_ = as_taught(growth.bias, targets)
         self.centers_ = np.ascontiguousarray(data.inputs[growth.chosen] * data.input_unit)
         self.width_ = width * data.input_unit
+        if not 0.0 < self.width_ < np.inf:
+            raise ValueError("X spans so little that no width is a float64: use another unit")
         self.history_ = growth.history
         self.stop_reason_ = _stop_reason(growth, limit)
         self.floor_ = data.floor

@@ -87,7 +87,10 @@ def smoothness(
     found = np.asarray(curve(fine[:, np.newaxis]), dtype=np.float64).reshape(len(fine), -1)
     if found.shape != spline.shape or not np.isfinite(found).all():
         raise ValueError(f"the curve must answer with {mean.shape[1]} finite outputs")
-    step = fine[1] - fine[0]
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore", under="ignore"):
+        step = fine[1] - fine[0]
+        if not 0.0 < step**2 < np.inf:
+            raise ValueError(f"stamps {step * FINER:.3g} apart need another unit of time")
     return Smoothness(
         acceleration=_acceleration(found, step),
         of_spline=_acceleration(spline, step),

@@ -60,7 +60,7 @@ def pooled_variance_floor(
     if len({len(array) for array in arrays}) > 1 or not _shared(stamps, arrays):
         return Floor(None, "the demonstrations do not share their stamps")
     stacked = np.stack(arrays)
-    return Floor(np.square(stacked - stacked.mean(axis=0)).mean(axis=(0, 1)))
+    return Floor(_mean_square(stacked - stacked.mean(axis=0), (0, 1)))
 
 
 def _shared(stamps: ArrayLike | None, arrays: list[FloatArray]) -> bool:
@@ -84,7 +84,7 @@ def mean_squared_error(targets: ArrayLike, predictions: ArrayLike) -> FloatArray
     array([2., 1.])
 
     """
-    return np.asarray(np.square(_errors(targets, predictions)).mean(axis=0))
+    return _mean_square(_errors(targets, predictions), 0)
 
 
 def largest_error(targets: ArrayLike, predictions: ArrayLike) -> FloatArray:
@@ -124,6 +124,14 @@ def r_squared(targets: ArrayLike, predictions: ArrayLike) -> float:
     constant = np.where(unexplained == 0.0, 1.0, 0.0)
     share = np.divide(unexplained, variation, out=1.0 - constant, where=variation > 0.0)
     return float(np.mean(1.0 - share))
+
+
+def _mean_square(errors: FloatArray, axis: int | tuple[int, int]) -> FloatArray:
+    with np.errstate(over="ignore"):
+        found = np.asarray(np.square(errors).mean(axis=axis))
+    if not np.isfinite(found).all():
+        raise ValueError(f"errors of {np.abs(errors).max():.3g} have no square: use another unit")
+    return found
 
 
 def _errors(targets: ArrayLike, predictions: ArrayLike) -> FloatArray:

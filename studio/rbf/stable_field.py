@@ -1,56 +1,25 @@
 """The paper's Eq. 5, made safe: a field of velocities that ends in its goal from everywhere."""
 
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.spatial.distance import cdist
 
 from studio.rbf.basis import FloatArray
+from studio.rbf.certificate import Certificate
 from studio.rbf.contract import change_settings, get_settings, require_fitted
 from studio.rbf.lessons import Lesson, lesson_from
 from studio.rbf.matching import match
 from studio.rbf.pace import learn_pace
-from studio.rbf.trajectories import as_states, read_demonstrations, read_goal
+from studio.rbf.trajectories import Trajectory, as_states, read_demonstrations, read_goal
 from studio.rbf.validation import number_above, whole_number
 
-
-@dataclass(frozen=True)
-class Certificate:
-    """What was checked so that the proof of convergence holds, and what it gives.
-
-    The proof. The field is ``x' = J(z) (-rate(z) z)`` where ``x = goal + map(z)``, ``map(0) = 0``
-    and J is the Jacobian of ``map``. With `steepness` below 1 the map is a diffeomorphism of the
-    whole space, so ``V(x) = ||z||^2`` is smooth, zero at the goal alone, and grows without bound
-    away from it. Along the field ``z' = -rate(z) z``, so ``V' = -2 rate(z) V``, and the rate is
-    never below `slowest_rate`: V falls at least as ``exp(-2 slowest_rate t)`` from every start.
-
-    Examples
-    --------
-    >>> Certificate(steepness=0.5, slowest_rate=0.1, fastest_rate=2.0).holds
-    True
-    >>> print(Certificate(steepness=1.5, slowest_rate=0.1, fastest_rate=2.0))
-    global convergence DOES NOT HOLD: steepness 1.500 (below 1), rate 0.1 to 2 (above 0)
-
-    """
-
-    steepness: float  # largest ||v|| / (sigma sqrt(e)) of all translations
-    slowest_rate: float  # [1 / time] the least that the rate can be anywhere
-    fastest_rate: float  # [1 / time] the most
-    limit: float = 1.0  # what the steepness must stay below
-
-    @property
-    def holds(self) -> bool:
-        """Whether the field converges to its goal from every start."""
-        return self.steepness < self.limit and 0.0 < self.slowest_rate <= self.fastest_rate
-
-    def __str__(self) -> str:
-        verdict = "holds" if self.holds else "DOES NOT HOLD"
-        return (
-            f"global convergence {verdict}: steepness {self.steepness:.3f} (below {self.limit:g}), "
-            f"rate {self.slowest_rate:.3g} to {self.fastest_rate:.3g} (above 0)"
-        )
+POOR = 0.1  # [reach] a field this far from its demonstrations is not what they show
+LINE_POINTS = 1000  # of a bent line, when demonstrations are compared with it
 
 
 @dataclass(eq=False)
@@ -92,7 +61,8 @@ class StableField:
     unit_ : float
         Mean reach of the demonstrations, in the unit of positions.
     error_ : float
-        Root mean square distance between demonstrated and bent paths, in the unit of positions.
+        Root mean square distance from the demonstrated samples to the path that the field takes
+        from where they began, in the unit of positions.
     n_features_in_ : int
         The dimension d.
 
@@ -137,6 +107,12 @@ class StableField:
         TypeError
             Where a setting is of the wrong type.
 
+        Warns
+        -----
+        UserWarning
+            Where the field misses its demonstrations by more than a tenth of their reach: they
+            show what no such field can do, as a motion that turns back on its own path.
+
         """
         count = whole_number(self.n_translations, "n_translations")
         iterations = whole_number(self.max_iterations, "max_iterations")
@@ -152,19 +128,29 @@ class StableField:
         self.map_ = found.chain
         self.goal_ = lesson.goal
         self.unit_ = lesson.unit
-        self.error_ = found.error * lesson.unit
         self.n_features_in_ = dimension
         self.pace_ = learn_pace(*self._seen_rates(lesson), neurons)
-        self.certify()
+        self.certificate_ = Certificate.of(self.map_, self.pace_)
+        self.error_ = self._distance_from(trajectories)
+        if self.error_ > POOR * self.unit_:
+            warnings.warn(
+                f"the field misses its demonstrations by {self.error_:.3g} (RMS), "
+                f"{100.0 * self.error_ / self.unit_:.0f} % of their reach: it arrives, but it is "
+                "not what they show; split a motion where it turns back, or raise n_translations",
+                stacklevel=2,
+            )
         return self
 
-    def certify(self) -> None:
-        """Work out `certificate_` from what was learned, or was read from a file."""
-        steepness = float(self.map_.steepness.max())
-        self.certificate_ = Certificate(steepness, self.pace_.slowest, self.pace_.fastest)
-
     def velocity(self, x: ArrayLike) -> FloatArray:
-        """Return the velocity at points (d,) or (n, d), of the same shape.
+        """Return the velocity x' = f(x) of Eq. 5.
+
+        Parameters
+        ----------
+        x : (d,) or (n, d), in the unit of the demonstrated positions
+
+        Returns
+        -------
+        of the same shape, in that unit over the unit of the demonstrated times
 
         Raises
         ------
@@ -173,20 +159,37 @@ class StableField:
         ValueError
             Where the points cannot be used.
 
+        Examples
+        --------
+        >>> line = np.exp(-np.linspace(0.0, 4.0, 80))[:, np.newaxis]  # x' = -x
+        >>> field = StableField(goal=[0.0], n_translations=3).fit([line], dt=4.0 / 79.0)
+        >>> field.velocity([0.5]).round(1)
+        array([-0.5])
+
         """
         require_fitted(self)
         points, shape = as_states(x, self.n_features_in_)
-        straight = self.straighten(points)
+        straight = self._straighten(points)
         towards = -self.pace_.rates(straight)[:, np.newaxis] * straight
         _, pushed = self.map_.push_forward(straight, towards)
         return (self.unit_ * pushed).reshape(shape)
 
     def rollout(self, x0: ArrayLike, dt: float, steps: int) -> FloatArray:
-        """Return the path from a start (d,): (steps + 1, d); from several (n, d): a third axis.
+        """Return the path that the field takes from a start.
 
-        Several starts give (steps + 1, n, d). It is computed in straightened space, where the
-        direction never changes and the logarithm of the distance falls: by Runge-Kutta's fourth
-        order in that logarithm, so that it falls with whatever dt.
+        It is computed in straightened space, where the direction never changes and the logarithm
+        of the distance falls: by Runge-Kutta's fourth order in that logarithm, so that it falls
+        with whatever dt.
+
+        Parameters
+        ----------
+        x0 : (d,) or (n, d), in the unit of the demonstrated positions
+        dt : time from one point to the next, in the unit of the demonstrated times
+        steps : how many, 1 or more
+
+        Returns
+        -------
+        (steps + 1, d), or (steps + 1, n, d) from several starts; the first point is the start
 
         Raises
         ------
@@ -195,31 +198,42 @@ class StableField:
         ValueError, TypeError
             Where the starts, dt or steps cannot be used.
 
+        Examples
+        --------
+        >>> line = np.exp(-np.linspace(0.0, 4.0, 80))[:, np.newaxis]  # x' = -x
+        >>> field = StableField(goal=[0.0], n_translations=3).fit([line], dt=4.0 / 79.0)
+        >>> field.rollout([1.0], dt=0.5, steps=4)[:, 0].round(1)
+        array([1. , 0.6, 0.4, 0.2, 0.1])
+
         """
         require_fitted(self)
         step = number_above(dt, "dt", 0.0, inclusive=False)
         count = whole_number(steps, "steps")
         starts, shape = as_states(x0, self.n_features_in_)
-        straight = self.straighten(starts)
+        straight = self._straighten(starts)
         lines = np.stack(list(self.pace_.descend(straight, step, count)))
-        bent = self.bend(lines.reshape(-1, self.n_features_in_))
+        bent = self._bend(lines.reshape(-1, self.n_features_in_))
         path = bent.reshape(count + 1, *shape)
         path[0] = starts.reshape(shape)
         return path
 
     def lyapunov(self, x: ArrayLike) -> FloatArray | float:
-        """Return V at points (n, d): (n,); at one point (d,): a number. See `Certificate`."""
+        """Return V at points (n, d): (n,); at one point (d,): a number. See `Certificate`.
+
+        It has no unit, and is infinite where float64 cannot hold it. Raises as `velocity`.
+        """
         require_fitted(self)
         points, shape = as_states(x, self.n_features_in_)
-        values: FloatArray = np.square(self.straighten(points)).sum(axis=1)
+        with np.errstate(over="ignore"):
+            values: FloatArray = np.square(self._straighten(points)).sum(axis=1)
         return values if len(shape) == 2 else float(values[0])
 
-    def straighten(self, points: FloatArray) -> FloatArray:
+    def _straighten(self, points: FloatArray) -> FloatArray:
         """Return where points (n, d) lie in the space where all paths are straight: (n, d)."""
         return self.map_.inverse((points - self.goal_) / self.unit_ + self._moved_goal())
 
-    def bend(self, straight: FloatArray) -> FloatArray:
-        """Return the points (n, d) that `straighten` takes to these: (n, d)."""
+    def _bend(self, straight: FloatArray) -> FloatArray:
+        """Return the points (n, d) that `_straighten` takes to these: (n, d)."""
         moved = self.map_.forward(straight) - self._moved_goal()
         return self.goal_ + self.unit_ * moved
 
@@ -231,6 +245,15 @@ class StableField:
         """Change settings by name; raise ValueError for a name that is none."""
         change_settings(self, params)
         return self
+
+    def _distance_from(self, trajectories: Sequence[Trajectory]) -> float:
+        """Return how far samples are from the path that begins where they do, RMS over all."""
+        squares = []
+        for trajectory in trajectories:
+            start = self._straighten(trajectory.positions[:1])
+            path = self._bend(np.linspace(1.0, 0.0, LINE_POINTS)[:, np.newaxis] * start)
+            squares.append(cdist(trajectory.positions, path, "sqeuclidean").min(axis=1))
+        return float(np.sqrt(np.concatenate(squares).mean()))
 
     def _moved_goal(self) -> FloatArray:
         """Return where the map takes the straightened goal, the origin (1, d)."""

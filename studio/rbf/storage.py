@@ -98,7 +98,7 @@ def save_model(
 
     """
     require_fitted(estimator)
-    if not time_unit:
+    if not isinstance(time_unit, str) or not time_unit.strip():
         raise ValueError('a model names the unit of its inputs, such as "index" or "s"')
     document = {
         "format": FORMAT,

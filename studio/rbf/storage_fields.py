@@ -4,6 +4,7 @@ from dataclasses import asdict
 
 import numpy as np
 
+from studio.rbf.certificate import Certificate
 from studio.rbf.diffeomorphism import Diffeomorphism
 from studio.rbf.pace import Pace
 from studio.rbf.plain_field import PlainField
@@ -35,7 +36,7 @@ def stable_field_from(settings: Table, learned: Table) -> StableField:
     field.goal_ = learned.array("goal", (dimension,))
     field.unit_ = learned.number("unit", positive=True)
     field.error_ = learned.number("error")
-    field.certify()
+    field.certificate_ = Certificate.of(field.map_, field.pace_)
     if not field.certificate_.holds:
         raise pace.fault("fastest", "no less than the slowest rate")
     written = learned.table("certificate")

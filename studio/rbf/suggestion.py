@@ -12,7 +12,13 @@ from studio.rbf.basis import FloatArray
 from studio.rbf.crossvalidation import leave_one_demonstration_out
 from studio.rbf.regressor import RBFRegressor
 from studio.rbf.score import pooled_variance_floor
-from studio.rbf.validation import demonstration_arrays, number_above, stamp_arrays, whole_number
+from studio.rbf.validation import (
+    demonstration_arrays,
+    finite_array,
+    number_above,
+    stamp_arrays,
+    whole_number,
+)
 
 COUNTS = (5, 10, 15, 20, 30, 50, 75, 100, 142)  # up to the samples of the paper's demonstrations
 
@@ -25,7 +31,8 @@ class Suggestion:
     --------
     >>> print(suggest_from((5, 10, 20), [1.20, 1.009, 1.001], [0.050, 0.0402, 0.0400]).words)
     10 neurons: the smallest of the 3 counts tried with training error within 1 % of the floor \
-(1.009 times it) and held-out error within 1 % of the best (0.0402; the best is 0.04, at 20).
+(1.009 times it) and a mean square held-out error within 1 % of the best (0.0402; the best is \
+0.04, at 20).
 
     """
 
@@ -105,7 +112,8 @@ def suggest_from(
     Raises
     ------
     ValueError, TypeError
-        Where there is no count, or the tolerance is no number from 0 up.
+        Where there is no count, an error is missing, negative or not finite, or the tolerance is
+        no number from 0 up.
 
     Examples
     --------
@@ -114,16 +122,23 @@ def suggest_from(
 
     """
     share = number_above(tolerance, "tolerance", 0.0, inclusive=True)
-    errors = np.asarray(held_out, dtype=np.float64)
-    if len(counts) == 0 or errors.shape != (len(counts),):
-        raise ValueError("there must be at least one count of neurons, and one error for each")
-    ratios = None if floor_ratios is None else np.asarray(floor_ratios, dtype=np.float64)
+    errors = _errors(held_out, "held_out", len(counts))
+    ratios = None if floor_ratios is None else _errors(floor_ratios, "floor_ratios", len(counts))
     near_best = errors <= (1.0 + share) * errors.min()
     enough = near_best if ratios is None else near_best & (ratios <= 1.0 + share)
     reached = bool(enough.any())
     place = int(np.argmax(enough if reached else near_best))
     words = _words(counts, place, ratios, errors, share, reached)
     return Suggestion(int(counts[place]), tuple(counts), ratios, errors, reached, words)
+
+
+def _errors(values: ArrayLike, name: str, count: int) -> FloatArray:
+    errors = finite_array(values, name)
+    if count == 0 or errors.shape != (count,):
+        raise ValueError(f"there must be at least one count of neurons, and {name} for each")
+    if (errors < 0.0).any():
+        raise ValueError(f"{name} are errors or their ratios, and never negative")
+    return errors
 
 
 def _words(
@@ -135,9 +150,16 @@ def _words(
     reached: bool,
 ) -> str:
     best = int(np.argmin(errors))
-    near = f"held-out error within {100.0 * share:g} % of the best ({errors[place]:.3g}; the best "
-    near += f"is {errors[best]:.3g}, at {counts[best]})"
-    start = f"{counts[place]} neurons: the smallest of the {len(counts)} counts tried with "
+    near = (
+        f"a mean square held-out error within {100.0 * share:g} % of the best ({errors[place]:.3g}"
+    )
+    near += ")" if place == best else f"; the best is {errors[best]:.3g}, at {counts[best]})"
+    tried = (
+        f"the smallest of the {len(counts)} counts tried"
+        if len(counts) > 1
+        else "the only one tried"
+    )
+    start = f"{counts[place]} neurons: {tried} with "
     if ratios is None:
         return f"{start}{near}. There is no floor to compare with."
     own = f"({ratios[place]:.4g} times it)"

@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike
 from studio.rbf.basis import FloatArray
 from studio.rbf.validation import finite_array, number_above
 
+SMALLEST = 1e-100  # reach and time, so that their squares and ratios stay within float64
+
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
@@ -56,6 +58,13 @@ def read_demonstrations(
     dimensions = [trajectory.positions.shape[1] for trajectory in found]
     if len(set(dimensions)) > 1:
         raise ValueError(f"demonstrations have one dimension d, not {dimensions}")
+    with np.errstate(over="ignore"):
+        reach = max(float(np.ptp(each.positions, axis=0).max()) for each in found)
+        spans = [float(each.times[-1] - each.times[0]) for each in found]
+    if reach and not SMALLEST < reach < 1.0 / SMALLEST:
+        raise ValueError(f"demonstrations that reach {reach:.3g} far need another unit")
+    if not (min(spans) > SMALLEST and max(spans) < 1.0 / SMALLEST):
+        raise ValueError(f"demonstrations that take {max(spans):.3g} need another unit of time")
     return found
 
 
@@ -77,7 +86,10 @@ def _trajectory(item: object, step: float | None, name: str) -> Trajectory:
 
 
 def _positions(item: object, name: str) -> FloatArray:
-    positions = finite_array(item, f"positions of {name}")  # type: ignore[arg-type]
+    try:
+        positions = finite_array(item, f"positions of {name}")  # type: ignore[arg-type]
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name}: {error}") from error
     if positions.ndim != 2 or positions.shape[1] == 0:
         raise ValueError(f"positions of {name} have shape (T, d), not {positions.shape}")
     if len(positions) < 2:

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from studio.engine.errors import StudioError
 from studio.engine.field_motion import (
     OnePlainField,
     PushAndReturn,
@@ -51,10 +52,15 @@ def test_the_arm_passes_every_posture_twice_in_opposite_directions(taught):
 
 
 def test_a_stable_field_for_both_ways_stands_still_where_it_starts(taught):
-    start = taught.mean[0]
-    field = StableField(goal=start, n_translations=5, max_iterations=30)
-    field.fit([(INDEX_TIME, rows) for rows in taught.rows])
-    np.testing.assert_allclose(field.rollout(start, 1.0, 142), np.tile(start, (143, 1)), atol=1e-9)
+    """Shifted to one start, which is the goal too, demonstrations cannot even be taken."""
+    closed = [(INDEX_TIME, rows - rows[0] + taught.mean[0]) for rows in taught.rows]
+    with pytest.raises(ValueError, match="starts at its goal"):
+        StableField(goal=taught.mean[0]).fit(closed)
+    field = StableField(goal=taught.mean[0], n_translations=5, max_iterations=30)
+    with pytest.warns(UserWarning, match="misses its demonstrations"):  # hundredths of a rad away
+        field.fit([(INDEX_TIME, rows) for rows in taught.rows])
+    path = field.rollout(taught.mean[0], 1.0, 142)
+    assert from_start(path).max() < 0.01 * from_start(taught.mean).max()
 
 
 @pytest.mark.parametrize("neurons", [20, 50, 142])
@@ -95,10 +101,28 @@ def test_a_motion_that_does_not_come_back_is_one_field(taught):
     assert len(motion.fields) == 1
 
 
+def test_demonstrations_of_two_kinds_are_told_apart(taught):
+    stays = taught.rows[0].copy()
+    turn = from_start(stays).argmax()
+    stays[turn:] = stays[turn]
+    mixed = np.concatenate([taught.rows[1:], stays[np.newaxis]])
+    with pytest.raises(StudioError, match="number 4 differs"):
+        PushAndReturn(5).fit(*stacked(mixed))
+    with pytest.raises(StudioError, match="nothing moves"):
+        OnePlainField(5).fit(*stacked(np.zeros((2, 142, 4))))
+
+
+@pytest.mark.parametrize("unit", [0.005, 1.0])
+def test_the_unit_of_time_changes_nothing(taught, push_and_return, unit):
+    inputs, rows = stacked(taught.rows)
+    motion = PushAndReturn(15).fit(unit * inputs, rows)
+    path = motion.predict(unit * INDEX_TIME)
+    np.testing.assert_allclose(path, push_and_return.predict(INDEX_TIME), atol=1e-3)
+
+
 def test_baxter_pushes_the_block_down_by_two_fields_within_its_limits(taught):
     lesson = learn(taught, LearnerSettings("field", 15))
     alone = reproduce(lesson)
     assert alone.performance.block_down
     assert alone.deviation.hand_dtw < 0.03
-    assert "certificate" not in lesson.remark
     assert "global convergence holds" in lesson.remark

@@ -95,9 +95,42 @@ def test_units_of_length_and_time_change_nothing(demonstrations):
     other = StableField(n_translations=6, max_iterations=60).fit(scaled)
     start = demonstrations[0][1][0]
     path = field.rollout(start, 0.05, 40)
+    reach = np.linalg.norm(start)
     np.testing.assert_allclose(
-        other.rollout(1000.0 * start, 3.0, 40), 1000.0 * path, atol=1000.0 * 2e-2
+        other.rollout(1000.0 * start, 3.0, 40) / 1000.0, path, atol=0.01 * reach
     )
+
+
+def test_far_away_everything_is_still_a_number(field):
+    far = np.array([[1e160, -1e160], [1e100, 0.0]])
+    assert np.isfinite(field.velocity(far)).all()
+    assert field.lyapunov(far)[0] == np.inf
+    assert np.isfinite(field.rollout(far, 1.0, 5)).all()
+
+
+TURN = np.linspace(0.0, 1.0, 142)
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        np.sin(np.pi * TURN) + 0.03 * (1.0 - TURN),
+        (1.0 - TURN) * np.cos(8.0 * TURN),
+    ],
+    ids=["there and back", "past the goal and back"],
+)
+def test_it_warns_where_no_field_can_do_what_was_shown(rows):
+    with pytest.warns(UserWarning, match="misses its demonstrations.*split a motion"):
+        field = StableField(goal=[0.0]).fit([(TURN, rows[:, np.newaxis])])
+    assert field.certificate_.holds
+
+
+def test_the_error_is_that_of_all_samples_as_they_were_given():
+    line = np.column_stack([1.0 - TURN, 0.2 * TURN])
+    with pytest.warns(UserWarning, match="12 % of their reach"):
+        field = StableField(goal=[0.0, 0.0], n_translations=3).fit([(TURN, line)])
+    beside = 0.2 * np.sqrt(np.mean(TURN**2))  # the goal is 0.2 beside the end of the line
+    assert field.error_ == pytest.approx(beside, rel=0.01)
 
 
 def test_the_same_demonstrations_give_the_same_bits(demonstrations):
@@ -132,6 +165,8 @@ def test_a_certificate_that_does_not_hold_says_so():
     assert "DOES NOT HOLD" in str(Certificate(1.2, 0.1, 2.0))
     assert not Certificate(0.5, 0.0, 2.0).holds
     assert not Certificate(float("nan"), 0.1, 2.0).holds
+    assert not Certificate(-1.0, 0.1, 2.0).holds
+    assert not Certificate(0.5, 0.1, float("inf")).holds
     assert "holds: steepness 0.500" in str(Certificate(0.5, 0.1, 2.0))
 
 

@@ -34,6 +34,10 @@ def test_velocities_of_a_straight_line_are_its_slope(samples):
         ([LINE], 0.0, "dt"),
         ([(np.arange(4.0), LINE)], None, r"5 positions, but times of shape \(4,\)"),
         ([(np.array([0.0, 1.0, 1.0, 2.0, 3.0]), LINE)], None, "must rise, but sample 2"),
+        ([1e200 * LINE], 1.0, "reach .* another unit"),
+        ([1e-200 * LINE], 1.0, "reach .* another unit"),
+        ([LINE], 1e-160, "another unit of time"),
+        ([[[1.0, 2.0], [3.0]]], 1.0, "demonstration 1: "),
         ([(np.arange(5.0), LINE * np.nan)], None, r"positions of demonstration 1.* is NaN"),
     ],
 )

@@ -66,7 +66,7 @@ OWN = (
     LearnerKind("ols", "RBF, greedy centers, GCV", _greedy_network, _COUNTS, network=True),
     LearnerKind(
         "field",
-        "Eq. 5: stable fields there and back",
+        "Eq. 5: two stable fields, so many Gaussians each",
         PushAndReturn,
         grid(neurons=(5, 8, 10, 15, 20, 30), bound=(0.5, 0.8)),
         network=True,
