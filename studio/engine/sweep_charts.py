@@ -108,7 +108,7 @@ def path_charts(table: Sweep) -> str:
         lines = [Line(x, y, MEAN, MEAN_DASHES)]
         lines += [_styled(i, *(path + from_floor)[:, axes].T) for i, path in enumerate(paths)]
         boxes = _scene_boxes(Scene(arm=taught.side), across, up)
-        charts.append(Chart(title, *labels, tuple(lines), boxes, size=(400, 300), equal=True).svg())
+        charts.append(Chart(title, *labels, tuple(lines), boxes, size=(388, 300), equal=True).svg())
     keys = [("mean demonstration, as sent", Line(INDEX_TIME, INDEX_TIME, MEAN, MEAN_DASHES))]
     keys += [(f"{label_of(name)}, as measured", _key(i)) for i, name in enumerate(table.learners)]
     return legend(keys) + _figures(charts)
