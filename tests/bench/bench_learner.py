@@ -1,6 +1,6 @@
 """The learner's bars on 20 seeds, synthetic and recorded: writes its table into docs/learner.md.
 
-Run it by ``python tests/bench/bench_learner.py``; it takes some five minutes, most of them for what
+Run it by ``PYTHONPATH=. python tests/bench/bench_learner.py``; it takes some five minutes, most of them for what
 it is compared with.
 """
 
