@@ -1,7 +1,7 @@
 """The learner's bars on 20 seeds, synthetic and recorded: writes its table into docs/learner.md.
 
-Run it by ``PYTHONPATH=. python tests/bench/bench_learner.py``; it takes some five minutes, most of them for what
-it is compared with.
+Run it by ``PYTHONPATH=. python tests/bench/bench_learner.py``; it takes some five
+minutes, most of them for what it is compared with.
 """
 
 import argparse
