@@ -8,13 +8,18 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 
 
 def resource_root() -> Path:
-    """Return the folder that holds ``urdf``, ``seeds`` and ``recordings/samples``.
+    """Return the folder that holds ``urdf``, ``seeds``, ``recordings/samples`` and ``NOTICE``.
 
     A wheel carries them under ``studio/data``; a clone (and so an editable install) has them at
     its top level.
     """
     packaged = _PACKAGE / "data"
     return packaged if packaged.is_dir() else _PACKAGE.parent
+
+
+def notice_path() -> Path:
+    """Return the file that names the maker of the robot's meshes, and their license."""
+    return resource_root() / "NOTICE"
 
 
 def samples_folder() -> Path:
