@@ -1,53 +1,155 @@
-"""The bytes of a file, whatever it is: plain or gzip, told from the content, and never too many."""
+"""What a file holds, whatever it is: plain or gzip, told from the content, and never too much."""
 
+import codecs
 import gzip
+import io
 import os
 import stat
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
 from studio.engine.errors import FileError
 
-MAXIMUM_BYTES = 128 * 1024 * 1024  # about 45 minutes of kinect2-socket JSON
+MAXIMUM_BYTES = 128 * 1024 * 1024  # read whole: about 45 minutes of kinect2-socket JSON
+MAXIMUM_STREAM_BYTES = 512 * 1024 * 1024  # read line by line: two hours or more of one body
+MAXIMUM_LINE = 4 * 1024 * 1024  # characters; a frame of six bodies takes some 40,000
+MAXIMUM_LINES = 20_000_000  # blank ones included; NTU RGB+D takes 27 a body and frame
+HEAD_BYTES = 64 * 1024  # enough to tell a format by
 _CHUNK_BYTES = 1024 * 1024
 _GZIP_MAGIC = b"\x1f\x8b"
 
 
-def read_content(path: str | os.PathLike[str]) -> bytes:
-    """Return what a file holds, decompressed if it is gzip.
+class Content:
+    """The decompressed bytes of a file, to be read once: whole, or line by line.
+
+    ``head`` are its first bytes, which stay to be read. Errors name the file.
+    """
+
+    def __init__(self, name: str, stream: IO[bytes] | gzip.GzipFile) -> None:
+        self.name = name
+        self._stream = stream
+        self._count = 0  # bytes read so far
+        self.head = self._read(HEAD_BYTES)
+
+    def text(self) -> str:
+        """Return the whole text, without a byte order mark.
+
+        Raises
+        ------
+        FileError
+            Where it is not UTF-8, damaged, or larger than `MAXIMUM_BYTES`.
+        """
+        data = b"".join(self._chunks(MAXIMUM_BYTES))
+        try:
+            return data.decode("utf-8-sig")
+        except UnicodeDecodeError as error:
+            found = f"found the byte 0x{data[error.start]:02x}"
+            raise FileError(
+                f"{self.name}: byte {error.start}: expected text in UTF-8, {found}"
+            ) from None
+
+    def lines(self) -> Iterator[str]:
+        """Yield line after line of the text, whatever ends them, in little memory.
+
+        Raises
+        ------
+        FileError
+            Where it is not UTF-8, damaged, larger than `MAXIMUM_STREAM_BYTES`, or has a line longer
+            than `MAXIMUM_LINE` or more lines than `MAXIMUM_LINES`.
+        """
+        utf8 = codecs.getincrementaldecoder("utf-8-sig")()
+        decoder = io.IncrementalNewlineDecoder(utf8, translate=True)
+        count, rest = 0, ""
+        for chunk in self._chunks(MAXIMUM_STREAM_BYTES):
+            lines = (rest + self._decoded(decoder, chunk, count)).split("\n")
+            rest = lines.pop()
+            count += len(lines)
+            if count > MAXIMUM_LINES:
+                raise FileError(f"{self.name}: more than {MAXIMUM_LINES:,} lines; cut it")
+            yield from lines
+            if len(rest) > MAXIMUM_LINE:
+                raise FileError(
+                    f"{self.name}: line {count + 1}: longer than {MAXIMUM_LINE:,} characters; "
+                    "expected one frame a line"
+                )
+        *lines, rest = (rest + self._decoded(decoder, b"", count)).split("\n")
+        yield from lines
+        if rest:  # a last line without an end
+            yield rest
+
+    def _decoded(self, decoder: io.IncrementalNewlineDecoder, chunk: bytes, line: int) -> str:
+        try:
+            return decoder.decode(chunk, final=not chunk)
+        except UnicodeDecodeError as error:
+            found = "an end within a letter" if not chunk else f"{error.object[error.start]:#04x}"
+            raise FileError(
+                f"{self.name}: after line {line}: expected text in UTF-8, found {found}"
+            ) from None
+
+    def _chunks(self, limit: int) -> Iterator[bytes]:
+        chunk = self.head
+        while chunk:
+            if self._count > limit:
+                raise FileError(
+                    f"{self.name}: holds more than {limit / 2**20:g} MiB (decompressed), the most "
+                    "that is read of its format; cut it into shorter recordings"
+                )
+            yield chunk
+            chunk = self._read(_CHUNK_BYTES)
+
+    def _read(self, count: int) -> bytes:
+        try:
+            chunk = self._stream.read(count)
+        except (EOFError, gzip.BadGzipFile, zlib.error) as error:
+            raise FileError(
+                f"{self.name}: after {self._count:,} bytes: expected gzip data to its end, "
+                f"found them damaged or cut off ({error}); fetch or pack the file again"
+            ) from None
+        except OSError as error:
+            raise _unreadable(self.name, error) from None
+        self._count += len(chunk)
+        return chunk
+
+
+@contextmanager
+def open_content(path: str | os.PathLike[str]) -> Iterator[Content]:
+    """Open what a file holds, decompressed if it is gzip.
 
     Raises
     ------
     FileError
         Where there is no such file, it is no regular file (a folder, a device), it is empty or
-        unreadable, its gzip data are damaged, or it holds more than ``MAXIMUM_BYTES``.
+        unreadable, or its gzip data are damaged; while it is read, what `Content` says.
     """
     name = os.fspath(path)
+    with _opened(name) as stream:
+        compressed = stream.peek(2)[:2] == _GZIP_MAGIC
+        content = Content(name, gzip.GzipFile(fileobj=stream) if compressed else stream)
+        if not content.head:
+            raise FileError(f"{name}: the file is empty; expected a recording of skeletons")
+        yield content
+
+
+def content_of(name: str, data: bytes) -> Content:
+    """Return the content of a file that is at hand already."""
+    return Content(name, io.BytesIO(data))
+
+
+def _opened(name: str) -> io.BufferedReader:
     try:
         _check_regular(name)
-        with Path(name).open("rb") as stream:
-            compressed = stream.peek(2)[:2] == _GZIP_MAGIC
-            data = _read_gzip(name, stream) if compressed else _read_capped(name, stream)
+        return Path(name).open("rb")
     except FileNotFoundError:
         raise FileError(f"{name}: there is no such file") from None
     except (OSError, ValueError) as error:  # ValueError: a name with a zero byte in it
-        reason = getattr(error, "strerror", None) or str(error)
-        raise FileError(f"{name}: cannot be read: {reason}") from None
-    if not data:
-        raise FileError(f"{name}: the file is empty; expected a recording of skeletons")
-    return data
+        raise _unreadable(name, error) from None
 
 
-def decode(name: str, data: bytes) -> str:
-    """Return a file's text, without a byte order mark; raise FileError where it is not UTF-8."""
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FileError(
-            f"{name}: byte {error.start}: expected text in UTF-8, "
-            f"found the byte 0x{data[error.start]:02x}"
-        ) from None
+def _unreadable(name: str, error: OSError | ValueError) -> FileError:
+    return FileError(f"{name}: cannot be read: {getattr(error, 'strerror', None) or error}")
 
 
 def _check_regular(name: str) -> None:
@@ -56,28 +158,3 @@ def _check_regular(name: str) -> None:
         raise FileError(f"{name}: this is a folder; expected one file")
     if not stat.S_ISREG(mode):  # a pipe or a device may never end
         raise FileError(f"{name}: this is not a regular file")
-
-
-def _read_capped(name: str, stream: IO[bytes] | gzip.GzipFile) -> bytes:
-    chunks: list[bytes] = []
-    count = 0
-    while chunk := stream.read(_CHUNK_BYTES):
-        chunks.append(chunk)
-        count += len(chunk)
-        if count > MAXIMUM_BYTES:
-            raise FileError(
-                f"{name}: holds more than {MAXIMUM_BYTES / 2**20:g} MiB (decompressed), the most "
-                "that is read; cut it into shorter recordings"
-            )
-    return b"".join(chunks)
-
-
-def _read_gzip(name: str, stream: IO[bytes]) -> bytes:
-    with gzip.GzipFile(fileobj=stream) as decompressed:
-        try:
-            return _read_capped(name, decompressed)
-        except (EOFError, gzip.BadGzipFile, zlib.error) as error:
-            raise FileError(
-                f"{name}: near byte {stream.tell()}: expected gzip data to its end, "
-                f"found them damaged or cut off ({error}); fetch or pack the file again"
-            ) from None

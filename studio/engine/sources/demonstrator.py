@@ -16,6 +16,15 @@ from studio.engine.errors import StudioError
 from studio.engine.skeleton import FRAME_RATE, JOINT_COUNT, FloatArray, HandState, Joint
 from studio.engine.sources.recording import SkeletonRecording, from_skeletons
 from studio.engine.sources.sensor_faults import sense
+from studio.engine.standing import (
+    DISTANCE,
+    FOREARM,
+    SENSOR_TO_HIP,
+    TO_HAND,
+    TO_TIP,
+    TRUNK,
+    UPPER_ARM,
+)
 
 FULL_SEQUENCE = (HandState.LASSO, HandState.OPEN, HandState.CLOSED)
 
@@ -145,50 +154,35 @@ class _Body:
 
     @classmethod
     def of(cls, rng: np.random.Generator) -> "_Body":
-        scale, x, z, yaw = rng.normal([1.0, 0.0, 2.2, 0.0], [0.04, 0.08, 0.08, math.radians(5)])
+        scale, x, z, yaw = rng.normal(
+            [1.0, 0.0, DISTANCE, 0.0], [0.04, 0.08, 0.08, math.radians(5)]
+        )
         return cls(float(scale), (float(x), float(z)), float(yaw))
 
 
-# A standing person of 1.75 m [m], in the torso's frame: x forward, y left, z up from the hips.
-_STANDING: dict[Joint, tuple[float, float, float]] = {
-    Joint.SPINE_BASE: (0.0, 0.0, 0.0),
-    Joint.SPINE_MID: (0.0, 0.0, 0.29),
-    Joint.SPINE_SHOULDER: (0.0, 0.0, 0.50),
-    Joint.NECK: (0.0, 0.0, 0.57),
-    Joint.HEAD: (0.02, 0.0, 0.72),
-    Joint.SHOULDER_LEFT: (0.0, 0.18, 0.46),
-    Joint.SHOULDER_RIGHT: (0.0, -0.18, 0.46),
-    Joint.HIP_LEFT: (0.0, 0.08, -0.03),
-    Joint.HIP_RIGHT: (0.0, -0.08, -0.03),
-    Joint.KNEE_LEFT: (0.03, 0.10, -0.43),
-    Joint.KNEE_RIGHT: (0.03, -0.10, -0.43),
-    Joint.ANKLE_LEFT: (0.0, 0.11, -0.82),
-    Joint.ANKLE_RIGHT: (0.0, -0.11, -0.82),
-    Joint.FOOT_LEFT: (0.11, 0.12, -0.88),
-    Joint.FOOT_RIGHT: (0.11, -0.12, -0.88),
+# The right arm, which hangs [m], in the torso's frame.
+_RIGHT_ARM: dict[Joint, tuple[float, float, float]] = {
     Joint.ELBOW_RIGHT: (0.0, -0.24, 0.20),
     Joint.WRIST_RIGHT: (0.05, -0.27, -0.02),
     Joint.HAND_RIGHT: (0.07, -0.27, -0.09),
     Joint.HAND_TIP_RIGHT: (0.08, -0.27, -0.16),
     Joint.THUMB_RIGHT: (0.11, -0.24, -0.09),
 }
-_UPPER_ARM, _FOREARM, _TO_HAND, _TO_TIP = 0.27, 0.24, 0.07, 0.15  # [m]
-_SENSOR_TO_HIP = -0.25  # [m] the hips' height relative to the sensor
 
 
 def _in_camera(body: _Body, poses: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Return all joints (T, 25, 3) [m] in camera space, the person swaying a little."""
     count = len(poses)
     points = np.zeros((count, JOINT_COUNT, 3))
-    for joint, point in _STANDING.items():
+    for joint, point in (TRUNK | _RIGHT_ARM).items():
         points[:, joint] = point
     upper_arm, forearm = _direction(poses[:, 0], poses[:, 1]), _direction(poses[:, 2], poses[:, 3])
-    elbow = points[:, Joint.SHOULDER_LEFT] + _UPPER_ARM * upper_arm
-    wrist = elbow + _FOREARM * forearm
+    elbow = points[:, Joint.SHOULDER_LEFT] + UPPER_ARM * upper_arm
+    wrist = elbow + FOREARM * forearm
     points[:, Joint.ELBOW_LEFT], points[:, Joint.WRIST_LEFT] = elbow, wrist
-    points[:, Joint.HAND_LEFT] = wrist + _TO_HAND * forearm
-    points[:, Joint.HAND_TIP_LEFT] = wrist + _TO_TIP * forearm
-    points[:, Joint.THUMB_LEFT] = wrist + _TO_HAND * forearm + (0.0, -0.03, 0.03)
+    points[:, Joint.HAND_LEFT] = wrist + TO_HAND * forearm
+    points[:, Joint.HAND_TIP_LEFT] = wrist + TO_TIP * forearm
+    points[:, Joint.THUMB_LEFT] = wrist + TO_HAND * forearm + (0.0, -0.03, 0.03)
     phase = rng.uniform(0.0, 2.0 * math.pi, 2)
     clock = np.arange(count) / FRAME_RATE
     sway = np.radians(1.5) * np.sin(2.0 * math.pi * 0.2 * clock + phase[0])
@@ -199,7 +193,7 @@ def _in_camera(body: _Body, poses: FloatArray, rng: np.random.Generator) -> Floa
     return np.stack(
         [
             body.offset[0] - body.scale * left + lean,
-            _SENSOR_TO_HIP + body.scale * points[..., 2],
+            SENSOR_TO_HIP + body.scale * points[..., 2],
             body.offset[1] - body.scale * forward,
         ],
         axis=-1,

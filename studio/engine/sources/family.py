@@ -1,8 +1,8 @@
 """What every file format is read into, and what a format has to offer to be read.
 
-A family is one module: ``recognizes`` looks at the beginning of a text, ``read`` turns the whole
-text into frames. Neither knows the file's name; ``registry.parse`` puts that on every error. A new
-format is a new module and one entry in the registry.
+A family is one module: ``recognizes`` looks at the beginning of a text, ``read`` turns the content
+into frames, line by line where the format allows it. Neither knows the file's name; ``registry``
+puts that on every error. A new format is a new module and one entry in the registry.
 """
 
 import math
@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from studio.engine.errors import StudioError
 from studio.engine.skeleton import SIDES, HandState, Skeleton
+from studio.engine.sources.content import Content
 
 MAXIMUM_TIME = 1e12  # s, 30,000 years; beyond it a number is no stamp, and sums of it overflow
 MAXIMUM_ID_LENGTH = 100  # characters; the SDK's own ids are numbers of 64 bits
@@ -24,6 +25,9 @@ class Frame:
     bodies: tuple[Skeleton, ...] = ()
 
 
+TELLS = ("hand_states", "tracking", "stamps")  # what a format may tell or not, by its names
+
+
 @dataclass(frozen=True)
 class ParsedFile:
     """A file's frames with all their bodies, and what its format does not tell."""
@@ -34,6 +38,12 @@ class ParsedFile:
     has_tracking: bool
     has_stamps: bool
 
+    @property
+    def tells(self) -> tuple[str, ...]:
+        """What it tells, by the names in `TELLS`."""
+        flags = (self.has_hand_states, self.has_tracking, self.has_stamps)
+        return tuple(name for name, told in zip(TELLS, flags, strict=True) if told)
+
 
 @dataclass(frozen=True)
 class Family:
@@ -41,7 +51,7 @@ class Family:
 
     name: str
     recognizes: Callable[[str], bool]  # given the first characters of a text
-    read: Callable[[str], ParsedFile]  # raises StudioError that names the place, not the file
+    read: Callable[[Content], ParsedFile]  # raises StudioError that names the place, not the file
 
 
 def gather(entries: Iterable[tuple[float, Skeleton | None]]) -> list[Frame]:

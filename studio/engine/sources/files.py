@@ -1,11 +1,37 @@
 """Skeletons out of a file, whatever supported format it has."""
 
 import os
+from pathlib import Path
 
 from studio.engine.errors import FileError, StudioError
-from studio.engine.sources.content import read_content
+from studio.engine.mcap_log import is_mcap
+from studio.engine.sources import mcap_skeletons
+from studio.engine.sources.content import open_content
+from studio.engine.sources.family import ParsedFile
 from studio.engine.sources.recording import SkeletonRecording, follow
-from studio.engine.sources.registry import parse
+from studio.engine.sources.registry import parse_content
+
+
+def read_frames(path: str | os.PathLike[str]) -> ParsedFile:
+    """Return all frames of a file with all their bodies; its content tells its format.
+
+    Parameters
+    ----------
+    path
+        kinect2-socket JSON, node-kinect2 frames, a Kinectron recording, MediaPipe landmarks, an
+        NTU RGB+D skeleton, a table of 75, 100, 101 or 175 columns, or the studio's own JSONL, each
+        plain or gzip; or skeletons as MCAP.
+
+    Raises
+    ------
+    FileError
+        Where the file cannot be read, is of no supported format, is damaged or too large. The
+        message names the file, the place, what was expected and what was found.
+    """
+    if is_mcap(Path(path)):
+        return mcap_skeletons.read(Path(path))
+    with open_content(path) as content:
+        return parse_content(content)
 
 
 def read_skeletons(path: str | os.PathLike[str], body: str | None = None) -> SkeletonRecording:
@@ -14,20 +40,18 @@ def read_skeletons(path: str | os.PathLike[str], body: str | None = None) -> Ske
     Parameters
     ----------
     path
-        kinect2-socket JSON, a table of 75, 100, 101 or 175 columns, or the studio's own JSONL;
-        plain or gzip.
+        A file in any of the formats of `read_frames`.
     body
-        The id of the body to take. Without it, the body followed so far is kept while it is seen;
-        otherwise the one nearest to the sensor in the floor plane is taken.
+        The id of the body to take. Without it, the one nearest to the sensor in the floor plane is
+        taken and kept; see `studio.engine.sources.following`.
 
     Raises
     ------
     FileError
-        Where the file cannot be read, is of no supported format or is damaged, or does not show
-        that body. The message names the file, the place, what was expected and what was found.
+        As `read_frames` does, or where the file does not show that body.
     """
     name = os.fspath(path)
-    parsed = parse(name, read_content(path))
+    parsed = read_frames(path)
     try:
         return follow(parsed, name, body)
     except StudioError as error:

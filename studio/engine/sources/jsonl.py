@@ -13,6 +13,9 @@ A line with a body (shown here on several)::
   order of `Joint`; ``tracking`` is 0 (not tracked), 1 (inferred) or 2 (tracked) for each joint.
 - ``state`` is unknown, not_tracked, open, closed or lasso; ``confidence`` lies between 0 and 1.
 - Every key is needed; further keys are passed over. NaN and Infinity are refused.
+- The first line may say of the whole file what its source told, all else being made up:
+  ``"tells": ["hand_states", "tracking", "stamps"]``, or some of them. Without it, tracking and
+  stamps pass for told, and hand states if any is known.
 - A frame with nobody in it is ``{"skeleton": 1, "time": 12.3}``.
 - Lines of equal time with different bodies are one frame; a body that comes again at the same time
   starts a new frame, a duplicate. Time never runs backwards. Blank lines are passed over.
@@ -23,17 +26,20 @@ without the file, is what live streams and recordings carry: `skeleton_to_dict` 
 
 import json
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, islice
 from pathlib import Path
 from typing import TextIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from studio.engine.errors import FileError, StudioError
+from studio.engine.errors import StudioError
 from studio.engine.skeleton import JOINT_COUNT, Hand, HandState, Joint, Skeleton, Tracking
 from studio.engine.sources.family import (
+    TELLS,
     Family,
+    Frame,
     ParsedFile,
     any_hand_state,
     check_body_id,
@@ -47,8 +53,10 @@ from studio.engine.sources.strict_json import (
     as_number,
     as_object,
     as_positions,
+    json_lines,
     parse_json,
 )
+from studio.engine.sources.whole_file import written_whole
 
 LAYOUT_VERSION = 1
 
@@ -56,7 +64,7 @@ LAYOUT_VERSION = 1
 def skeleton_to_dict(skeleton: Skeleton) -> dict[str, object]:
     """Return the frame object of a skeleton, made of what JSON knows; the module describes it."""
     return {
-        **_frame_with_nobody(skeleton.time),
+        **nobody_to_dict(skeleton.time),
         "body": skeleton.body_id,
         "positions": skeleton.positions.tolist(),
         "tracking": skeleton.tracking.tolist(),
@@ -74,6 +82,18 @@ def skeleton_from_dict(frame: object) -> Skeleton | None:
         Where the object is not as the module describes it; the message names the key.
     """
     return _parse_frame(frame)[1]
+
+
+def frame_from_message(message: dict[str, object]) -> Frame:
+    """Return the frame of one parsed line or message: one body, or nobody.
+
+    Raises
+    ------
+    StudioError
+        Where the object is not as the module describes it; the message names the key.
+    """
+    time, skeleton = _parse_frame(message)
+    return Frame(time, () if skeleton is None else (skeleton,))
 
 
 def frame_to_json(skeleton: Skeleton) -> str:
@@ -95,8 +115,8 @@ def frame_from_json(line: str) -> Skeleton | None:
 def write_skeletons(target: str | os.PathLike[str] | TextIO, skeletons: Iterable[Skeleton]) -> None:
     """Write skeletons to a file or an open text stream, one a line.
 
-    Of a `SkeletonRecording`, the frames in which nobody is seen are written too. A file appears
-    under its name only when it is whole.
+    Of a `SkeletonRecording`, the frames in which nobody is seen are written too, and what it does
+    not tell. A file appears under its name only when it is whole.
 
     Raises
     ------
@@ -105,87 +125,114 @@ def write_skeletons(target: str | os.PathLike[str] | TextIO, skeletons: Iterable
     FileError
         Where the file cannot be written.
     """
+    if isinstance(skeletons, SkeletonRecording):
+        lines = file_to_lines(skeletons.as_parsed())
+    else:
+        lines = _lines((skeleton.time, skeleton) for skeleton in skeletons)
     if not isinstance(target, str | os.PathLike):
-        target.writelines(_lines(skeletons))
+        target.writelines(lines)
         return
-    path = Path(target)
-    unfinished = path.with_name(path.name + ".unfinished")
-    try:
-        try:
-            with unfinished.open("w", encoding="utf-8", newline="\n") as stream:
-                stream.writelines(_lines(skeletons))
-            unfinished.replace(path)
-        finally:
-            unfinished.unlink(missing_ok=True)
-    except OSError as error:
-        raise FileError(f"{path}: cannot be written: {error.strerror or error}") from None
+    with written_whole(Path(target)) as path, path.open("w", encoding="utf-8") as stream:
+        stream.writelines(lines)
+
+
+def frames_to_lines(frames: Iterable[Frame], tells: Sequence[str] | None = None) -> Iterator[str]:
+    """Yield all bodies of all frames as the lines of a file, each with its end.
+
+    ``tells`` are names of `TELLS`, for the first line; None leaves them to be guessed.
+
+    Raises
+    ------
+    StudioError
+        Where time runs backwards, or a body's id could not be read again.
+    """
+    entries = ((frame.time, body) for frame in frames for body in (frame.bodies or (None,)))
+    return _lines(entries, tells)
+
+
+def file_to_lines(parsed: ParsedFile) -> Iterator[str]:
+    """Yield a whole file as the lines of ours; what it tells is said unless it would be guessed."""
+    is_guessed = parsed.tells == _guessed(parsed.frames)
+    return frames_to_lines(parsed.frames, None if is_guessed else parsed.tells)
 
 
 def recognizes(head: str) -> bool:
     """Return whether the first line is one of ours."""
     first = head.lstrip().partition("\n")[0]
-    return first.startswith("{") and '"skeleton"' in first and '"frames"' not in first
-
-
-def read(text: str) -> ParsedFile:
-    """Return the frames of a whole file; raise StudioError that names the line."""
-    frames = gather(_entries(text))
-    return ParsedFile(
-        format=f"studio jsonl {LAYOUT_VERSION}",
-        frames=frames,
-        has_hand_states=any_hand_state(frames),
-        has_tracking=True,
-        has_stamps=True,
+    others = ('"frames"', '"bodies"')  # where a skeleton is something else
+    return (
+        first.startswith("{")
+        and '"skeleton"' in first
+        and not any(other in first for other in others)
     )
 
 
-def _entries(text: str) -> Iterator[tuple[float, Skeleton | None]]:
+def read(lines: Iterable[str]) -> ParsedFile:
+    """Return the frames of a file's lines; raise StudioError that names the line."""
+    values = json_lines(lines)
+    first = list(islice(values, 1))
+    told = _told(first)
+    frames = gather(_entries(chain(first, values)))
+    tells = _guessed(frames) if told is None else told
+    hands, tracking, stamps = (name in tells for name in TELLS)
+    return ParsedFile(f"studio jsonl {LAYOUT_VERSION}", frames, hands, tracking, stamps)
+
+
+def _guessed(frames: Iterable[Frame]) -> tuple[str, ...]:
+    """Return what passes for told in a file that does not say."""
+    return TELLS if any_hand_state(frames) else TELLS[1:]
+
+
+def _told(first: Sequence[tuple[str, object]]) -> list[object] | None:
+    """Return what the first line says that its file tells; None where it does not say."""
+    for place, value in first:
+        if isinstance(value, dict) and "tells" in value:
+            tells = value["tells"]
+            if not isinstance(tells, list) or any(name not in TELLS for name in tells):
+                names = ", ".join(TELLS)
+                raise StudioError(
+                    f'{place}: expected "tells" as a list out of {names}, found {shown(tells)}'
+                )
+            return tells
+    return None
+
+
+def _entries(values: Iterable[tuple[str, object]]) -> Iterator[tuple[float, Skeleton | None]]:
     """Yield each line's time and skeleton."""
     previous: float | None = None
-    for number, line in enumerate(text.split("\n"), start=1):
-        if not line.strip():
-            continue
+    for place, value in values:
         try:
-            time, skeleton = _parse_frame(_parse_line(line))
+            time, skeleton = _parse_frame(value)
             check_time(time, previous)
         except StudioError as error:
-            raise StudioError(f"line {number}: {error}") from None
+            raise StudioError(f"{place}: {error}") from None
         previous = time
         yield time, skeleton
 
 
-def _lines(skeletons: Iterable[Skeleton]) -> Iterator[str]:
-    """Yield one line a frame, and check that it can be read again."""
+def _lines(
+    entries: Iterable[tuple[float, Skeleton | None]], tells: Sequence[str] | None = None
+) -> Iterator[str]:
+    """Yield one line an entry, and check that it can be read again."""
     previous: float | None = None
-    for time, skeleton in _with_gaps(skeletons):
+    more: dict[str, object] = {} if tells is None else {"tells": list(tells)}
+    for time, skeleton in entries:
         check_time(time, previous)
         previous = time
-        if skeleton is None:
-            yield json.dumps(_frame_with_nobody(time)) + "\n"
-        else:
+        if skeleton is not None:
             check_body_id(skeleton.body_id)
-            yield frame_to_json(skeleton) + "\n"
+        frame = nobody_to_dict(time) if skeleton is None else skeleton_to_dict(skeleton)
+        yield json.dumps(frame | more, allow_nan=False) + "\n"
+        more = {}
 
 
-def _with_gaps(skeletons: Iterable[Skeleton]) -> Iterable[tuple[float, Skeleton | None]]:
-    if isinstance(skeletons, SkeletonRecording):
-        return skeletons.by_frame()
-    return ((skeleton.time, skeleton) for skeleton in skeletons)
-
-
-def _frame_with_nobody(time: float) -> dict[str, object]:
+def nobody_to_dict(time: float) -> dict[str, object]:
+    """Return the frame object of a frame with nobody in it."""
     return {"skeleton": LAYOUT_VERSION, "time": float(time)}
 
 
 def _hand_to_dict(hand: Hand) -> dict[str, object]:
     return {"state": hand.state.value, "confidence": float(hand.confidence)}
-
-
-def _parse_line(line: str) -> object:
-    try:
-        return parse_json(line)
-    except StudioError as error:  # its "line 1" would mislead here
-        raise StudioError(str(error).removeprefix("line 1, ")) from None
 
 
 def _parse_frame(value: object) -> tuple[float, Skeleton | None]:
@@ -233,4 +280,4 @@ def _hand(value: object, what: str) -> Hand:
     return Hand(HandState(state), confidence)
 
 
-FAMILY = Family("the studio's own JSONL", recognizes, read)
+FAMILY = Family("the studio's own JSONL", recognizes, lambda content: read(content.lines()))

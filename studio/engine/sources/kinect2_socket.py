@@ -6,24 +6,25 @@ any 0.x. Further keys (face, gestures) are passed over. Frames are taken to come
 """
 
 import re
-from collections.abc import Collection
 
 from studio.engine.errors import StudioError
 from studio.engine.skeleton import (
     FRAME_RATE,
     JOINT_COUNT,
     FloatArray,
-    Hand,
-    HandState,
     Joint,
     Skeleton,
     all_tracked,
 )
-from studio.engine.sources.family import Family, Frame, ParsedFile, check_body_id, shown
+from studio.engine.sources.family import Family, Frame, ParsedFile, shown
+from studio.engine.sources.kinect2_fields import (
+    HAND_KEYS,
+    body_id_of,
+    check_new,
+    hand_of,
+    is_person,
+)
 from studio.engine.sources.strict_json import as_list, as_object, as_positions, parse_json
-
-_WORDS = {state.value.replace("_", ""): state for state in HandState}  # "nottracked"
-_HAND_KEYS = ("leftHandState", "rightHandState")
 
 
 def recognizes(head: str) -> bool:
@@ -42,7 +43,7 @@ def read(text: str) -> ParsedFile:
         raise StudioError('expected at least one frame in "frames", found none')
     frames = [_frame(index, entry) for index, entry in enumerate(entries)]
     tells_hands = any(
-        key in body for entry in entries for body in _bodies(entry) for key in _HAND_KEYS
+        key in body for entry in entries for body in _bodies(entry) for key in HAND_KEYS
     )
     return ParsedFile(
         format=f"kinect2-socket {version}",
@@ -61,20 +62,15 @@ def _frame(index: int, entry: object) -> Frame:
     except StudioError as error:
         raise StudioError(f"frame {index}: {error}") from None
     for number, body in enumerate(bodies):
-        if body.get("tracked", True) in (False, 0):  # an empty seat, not a person
+        if not is_person(body):
             continue
         try:
             skeleton = _skeleton(body, time)
-            _check_new(skeleton.body_id, seen)
+            check_new(skeleton.body_id, seen)
         except StudioError as error:
             raise StudioError(f"frame {index}, body {number}: {error}") from None
         seen[skeleton.body_id] = skeleton
     return Frame(time, tuple(seen.values()))
-
-
-def _check_new(body_id: str, seen: Collection[str]) -> None:
-    if body_id in seen:
-        raise StudioError(f"expected each id once in a frame, found {body_id} twice")
 
 
 def _bodies(entry: object) -> list[dict[str, object]]:
@@ -83,37 +79,14 @@ def _bodies(entry: object) -> list[dict[str, object]]:
 
 
 def _skeleton(body: dict[str, object], time: float) -> Skeleton:
-    left, right = (_hand(body, key) for key in _HAND_KEYS)
+    left, right = (hand_of(body, key) for key in HAND_KEYS)
     return Skeleton(
         time=time,
         positions=_positions(body.get("joints")),
         tracking=all_tracked(),
         left_hand=left,
         right_hand=right,
-        body_id=_body_id(body.get("id")),
-    )
-
-
-def _body_id(value: object) -> str:
-    if isinstance(value, bool) or not isinstance(value, int | str):
-        raise StudioError(f'expected "id" as a whole number or text, found {shown(value)}')
-    body_id = str(value)
-    check_body_id(body_id)
-    return body_id
-
-
-def _hand(body: dict[str, object], key: str) -> Hand:
-    state = body.get(key, 0)
-    if isinstance(state, str) and state in _WORDS:
-        return Hand(_WORDS[state])
-    if isinstance(state, int):
-        try:
-            return Hand(HandState.from_number(state))
-        except ValueError:
-            pass  # the message below names the key as well
-    raise StudioError(
-        f'expected "{key}" as 0 to {len(HandState) - 1} or one of {", ".join(_WORDS)}, '
-        f"found {shown(state)}"
+        body_id=body_id_of(body.get("id"), "id"),
     )
 
 
@@ -130,4 +103,6 @@ def _positions(value: object) -> FloatArray:
     return as_positions(points)
 
 
-FAMILY = Family("kinect2-socket JSON (0.1 and 0.3)", recognizes, read)
+FAMILY = Family(
+    "kinect2-socket JSON (0.1 and 0.3)", recognizes, lambda content: read(content.text())
+)

@@ -1,6 +1,5 @@
 """The skeletons of a file as the rest of the studio takes them: one body's, in order of time."""
 
-import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studio.engine.errors import StudioError
-from studio.engine.skeleton import FloatArray, Joint, Skeleton
+from studio.engine.skeleton import FloatArray, Skeleton
 from studio.engine.sources.family import (
     Frame,
     ParsedFile,
@@ -20,6 +19,7 @@ from studio.engine.sources.family import (
     gather,
     shown,
 )
+from studio.engine.sources.following import Following, choose_body
 
 _Array = TypeVar("_Array", bound=NDArray[np.generic])
 
@@ -68,12 +68,24 @@ class SkeletonRecording(Sequence[Skeleton]):
         for index, time in enumerate(self.frame_times.tolist()):
             yield time, seen.get(index)
 
+    def as_parsed(self) -> ParsedFile:
+        """Return the file as if it showed the chosen body alone."""
+        frames = [
+            Frame(time, () if skeleton is None else (skeleton,))
+            for time, skeleton in self.by_frame()
+        ]
+        return ParsedFile(
+            self.format, frames, self.has_hand_states, self.has_tracking, self.has_stamps
+        )
 
-def from_skeletons(skeletons: Iterable[Skeleton], path: str, format: str) -> SkeletonRecording:
+
+def from_skeletons(
+    skeletons: Iterable[Skeleton], path: str, format: str, body: str | None = None
+) -> SkeletonRecording:
     """Return skeletons that did not come from a skeleton file as if they had.
 
     ``path`` and ``format`` say where they are from, such as "demonstrator:1" and "demonstrator".
-    Raises StudioError where their time runs backwards.
+    Raises StudioError where their time runs backwards, or where ``body`` is asked for and not seen.
     """
     frames = gather((skeleton.time, skeleton) for skeleton in skeletons)
     for before, after in pairwise(frames):
@@ -81,14 +93,14 @@ def from_skeletons(skeletons: Iterable[Skeleton], path: str, format: str) -> Ske
     parsed = ParsedFile(
         format, frames, has_hand_states=any_hand_state(frames), has_tracking=True, has_stamps=True
     )
-    return follow(parsed, path)
+    return follow(parsed, path, body)
 
 
 def follow(parsed: ParsedFile, path: str, body: str | None = None) -> SkeletonRecording:
     """Choose one body of each frame: the one asked for, or the one to follow.
 
-    Without ``body``, the body followed so far is kept while it is seen; otherwise the one nearest
-    to the sensor in the floor plane is taken, which is nearest to the middle and to the sensor.
+    Without ``body``, the one nearest to the sensor in the floor plane is taken, which is nearest to
+    the middle and to the sensor, and kept; see `studio.engine.sources.following`.
 
     Raises
     ------
@@ -101,11 +113,10 @@ def follow(parsed: ParsedFile, path: str, body: str | None = None) -> SkeletonRe
         raise StudioError(f"expected a body that is seen, not {shown(body)}; seen: {known}")
     skeletons: list[Skeleton] = []
     indices: list[int] = []
-    followed = body
+    following: Following | None = None
     for index, frame in enumerate(parsed.frames):
-        skeleton = _chosen(frame, followed, strict=body is not None)
+        following, skeleton = choose_body(following, frame, only=body)
         if skeleton is not None:
-            followed = skeleton.body_id
             skeletons.append(skeleton)
             indices.append(index)
     return SkeletonRecording(
@@ -119,22 +130,6 @@ def follow(parsed: ParsedFile, path: str, body: str | None = None) -> SkeletonRe
         has_tracking=parsed.has_tracking,
         has_stamps=parsed.has_stamps,
     )
-
-
-def _chosen(frame: Frame, followed: str | None, *, strict: bool) -> Skeleton | None:
-    """Return the followed body or, unless strict, the one that takes its place."""
-    for skeleton in frame.bodies:
-        if skeleton.body_id == followed:
-            return skeleton
-    if strict or not frame.bodies:
-        return None
-    return min(frame.bodies, key=_distance)
-
-
-def _distance(skeleton: Skeleton) -> float:
-    """Return how far the body is from the sensor in the floor plane [m]."""
-    x, _, z = skeleton.positions[Joint.SPINE_MID].tolist()
-    return math.hypot(x, z)
 
 
 def _read_only(array: _Array) -> _Array:

@@ -1,42 +1,49 @@
 """All formats in one place; a file's content tells which is its own, never its name."""
 
 from studio.engine.errors import FileError, StudioError
-from studio.engine.sources import jsonl, kinect2_socket, tables
-from studio.engine.sources.content import decode
+from studio.engine.sources import jsonl, kinect2_socket, landmarks, node_kinect2, ntu, tables
+from studio.engine.sources.content import Content, content_of
 from studio.engine.sources.family import Family, ParsedFile, shown
-from studio.engine.sources.unsupported import KNOWN_FORMATS
 
-FAMILIES: tuple[Family, ...] = (jsonl.FAMILY, kinect2_socket.FAMILY, tables.FAMILY)
+FAMILIES: tuple[Family, ...] = (
+    jsonl.FAMILY,
+    kinect2_socket.FAMILY,
+    node_kinect2.FAMILY,
+    node_kinect2.RECORDING_FAMILY,
+    landmarks.FAMILY,
+    landmarks.LIST_FAMILY,
+    ntu.FAMILY,
+    tables.FAMILY,
+)
 SUPPORTED = "; ".join(family.name for family in FAMILIES) + "; each plain or gzip"
-_HEAD_BYTES = 64 * 1024  # enough to tell a format by
 
 
 def parse(name: str, data: bytes) -> ParsedFile:
-    """Return the frames of a file of that name (for messages) and content.
+    """Return the frames of a file that is at hand; its name is for messages."""
+    return parse_content(content_of(name, data))
+
+
+def parse_content(content: Content) -> ParsedFile:
+    """Return the frames that a file's content amounts to.
 
     Raises
     ------
     FileError
         Where the content is of no supported format, or not what its format asks for.
     """
-    head = data[:_HEAD_BYTES].decode("utf-8-sig", errors="replace")
-    family = _identify(name, head)
-    text = decode(name, data)
+    head = content.head.decode("utf-8-sig", errors="replace")
+    family = _identify(content.name, head)
     try:
-        return family.read(text)
+        return family.read(content)
+    except FileError:
+        raise  # of the content, which names the file already
     except StudioError as error:
         raise FileError(
-            f"{name}: {error} (read as {family.name}; supported: {SUPPORTED})"
+            f"{content.name}: {error} (read as {family.name}; supported: {SUPPORTED})"
         ) from None
 
 
 def _identify(name: str, head: str) -> Family:
-    for known in KNOWN_FORMATS:
-        if known.recognizes(head):
-            raise FileError(
-                f"{name}: this is {known.name}, which this version does not read yet; "
-                f"supported: {SUPPORTED}"
-            )
     for family in FAMILIES:
         if family.recognizes(head):
             return family

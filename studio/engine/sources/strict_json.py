@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeGuard
 
 import numpy as np
@@ -34,6 +34,31 @@ def parse_json(text: str) -> object:
     return value
 
 
+def json_lines(lines: Iterable[str]) -> Iterator[tuple[str, object]]:
+    """Yield each line's place, such as ``line 3``, and value; blank lines are passed over.
+
+    Raises
+    ------
+    StudioError
+        Where a line is not JSON; the message names it.
+    """
+    for number, line in enumerate(lines, start=1):
+        if not line.strip():
+            continue
+        place = f"line {number}"
+        try:
+            value = parse_json(line)
+        except StudioError as error:  # its "line 1" would mislead here
+            raise StudioError(f"{place}: {str(error).removeprefix('line 1, ')}") from None
+        yield place, value
+
+
+def json_entries(text: str) -> Iterator[tuple[str, object]]:
+    """Yield the place, such as ``entry 3`` (from 0), and the value of each entry of a JSON list."""
+    for number, value in enumerate(as_list(parse_json(text), "the recording")):
+        yield f"entry {number}", value
+
+
 def as_object(value: object, what: str) -> dict[str, object]:
     """Return a JSON object; raise StudioError where the value is something else."""
     if not isinstance(value, dict):
@@ -55,6 +80,27 @@ def as_number(value: object, what: str) -> float:
     if not _is_finite_number(value):
         raise StudioError(f"expected {what} as a finite number, found {shown(value)}")
     return float(value)
+
+
+def as_numbers(values: object, what: str, count: int | None = None) -> FloatArray:
+    """Return a list of finite numbers, ``count`` of them if given; raise StudioError otherwise."""
+    each = f"each of {what}"
+    numbers = [as_number(value, each) for value in as_list(values, what, count)]
+    return np.array(numbers, dtype=np.float64)
+
+
+def as_flag(value: object, what: str) -> bool:
+    """Return true or false; raise StudioError for anything else, 0 and 1 included."""
+    if not isinstance(value, bool):
+        raise StudioError(f"expected {what} as true or false, found {shown(value)}")
+    return value
+
+
+def as_text(value: object, what: str) -> str:
+    """Return a text that can be printed; raise StudioError for half of a character, too."""
+    if not isinstance(value, str) or any("\ud800" <= letter <= "\udfff" for letter in value):
+        raise StudioError(f"expected {what} as a text, found {shown(value)}")
+    return value
 
 
 def as_positions(points: Sequence[Sequence[object]]) -> FloatArray:

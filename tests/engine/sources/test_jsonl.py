@@ -1,6 +1,7 @@
 import io
 import json
 import math
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -12,12 +13,13 @@ from studio.engine.skeleton import Hand, HandState, Skeleton
 from studio.engine.sources import (
     frame_from_json,
     frame_to_json,
+    jsonl,
     read_skeletons,
     skeleton_from_dict,
     skeleton_to_dict,
     write_skeletons,
 )
-from studio.engine.sources.jsonl import read
+from studio.engine.sources.family import TELLS, Frame, ParsedFile
 
 numbers = st.floats(allow_nan=False, allow_infinity=False)
 hands = st.builds(Hand, st.sampled_from(HandState), st.floats(0, 1))
@@ -38,6 +40,10 @@ def skeletons(draw):
         draw(hands),
         draw(names),
     )
+
+
+def read(text: str) -> ParsedFile:
+    return jsonl.read(text.split("\n"))
 
 
 def same(a: Skeleton, b: Skeleton) -> bool:
@@ -100,10 +106,62 @@ def test_equal_times_are_one_frame_unless_a_body_comes_again(made):
     ]
 
 
+def test_all_bodies_of_all_frames_come_back(made):
+    a, b, later = made.skeleton(0, "a"), made.skeleton(0, "b"), made.skeleton(2, "a")
+    frames = [Frame(100.0, (a, b)), Frame(100.05), Frame(later.time, (later,))]
+    back = read("".join(jsonl.frames_to_lines(frames))).frames
+    assert [frame.time for frame in back] == [frame.time for frame in frames]
+    for before, after in zip(frames, back, strict=True):
+        assert len(before.bodies) == len(after.bodies)
+        assert all(map(same, before.bodies, after.bodies))
+
+
+def test_one_message_is_one_frame(made):
+    body = made.skeleton(0)
+    frame = jsonl.frame_from_message(skeleton_to_dict(body))
+    assert (frame.time, len(frame.bodies)) == (body.time, 1)
+    assert same(frame.bodies[0], body)
+    assert jsonl.frame_from_message({"skeleton": 1, "time": 2.5}) == Frame(2.5)
+    with pytest.raises(StudioError, match='"positions"'):
+        jsonl.frame_from_message({"skeleton": 1, "time": 2.5, "body": "a"})
+
+
 def test_hands_that_are_never_known_mean_no_hand_states(made):
     plain = Skeleton(0.0, made.standing(0), [2] * 25)
     assert not read(frame_to_json(plain)).has_hand_states
     assert read(frame_to_json(made.skeleton(1))).has_hand_states
+
+
+@pytest.mark.parametrize("count", range(4))
+def test_what_a_file_tells_is_said_in_its_first_line(made, count):
+    bodies = tuple(made.skeleton(frame) for frame in range(3))
+    frames = [Frame(body.time, (body,)) for body in bodies]
+    for tells in combinations(TELLS, count):
+        flags = [name in tells for name in TELLS]
+        text = list(jsonl.file_to_lines(ParsedFile("x", frames, *flags)))
+        assert read("".join(text)).tells == tells
+        assert ["tells" in line for line in text] == [tells != TELLS, False, False]
+        for line, body in zip(text, bodies, strict=True):  # what reads lines alone passes it over
+            assert same(frame_from_json(line), body)
+    empty = ParsedFile("x", [Frame(1.0)], True, True, True)
+    assert read("".join(jsonl.file_to_lines(empty))).has_hand_states
+
+
+def test_what_a_skeleton_file_does_not_tell_is_written_with_its_skeletons(tmp_path, made):
+    source, copy = tmp_path / "a", tmp_path / "b"
+    source.write_text(made.table_text(made.table_rows(75)))
+    write_skeletons(copy, read_skeletons(source))
+    found = read_skeletons(copy)
+    assert not (found.has_hand_states)
+    assert not (found.has_tracking)
+    assert not (found.has_stamps)
+
+
+@pytest.mark.parametrize("tells", [None, "tracking", ["faces"], [["tracking"]], [1], {}])
+def test_what_is_no_list_of_what_is_told_is_refused(made, tells):
+    first = json.dumps(skeleton_to_dict(made.skeleton(0)) | {"tells": tells})
+    with pytest.raises(StudioError, match='line 1: expected "tells" as a list out of hand_states'):
+        read(first)
 
 
 def test_keys_that_a_later_layout_may_add_are_passed_over(made):

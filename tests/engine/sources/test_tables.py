@@ -4,7 +4,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studio.engine.errors import StudioError
-from studio.engine.sources.tables import read, recognizes
+from studio.engine.sources import tables
+from studio.engine.sources.content import content_of
+from studio.engine.sources.tables import recognizes
+
+
+def read(text):
+    return tables.read(content_of("table", text.encode()).lines())
 
 
 def positions(parsed):
