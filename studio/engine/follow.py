@@ -1,12 +1,16 @@
 """A robot follows a stream of skeletons, tick by tick: the headless form of live teaching."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from itertools import count
 
 import numpy as np
 
 from studio.engine.errors import FileError
+from studio.engine.live.source import LiveSource
+from studio.engine.live.stamps import Rebased, rebase
 from studio.engine.performance import send, start_world
-from studio.engine.pipeline import Pipeline
+from studio.engine.pipeline import Outcome, Pipeline
 from studio.engine.recording import Recording, RecordingInfo, Sample
 from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
 from studio.engine.skeleton import FloatArray, Skeleton
@@ -37,18 +41,40 @@ def newest_frames(stream: SkeletonRecording) -> Iterator[Skeleton | None]:
         yield newest.get(tick)
 
 
-def follow_steps(stream: SkeletonRecording, pipeline: Pipeline, world: World) -> Iterator[Sample]:
-    """Let the arm in ``world`` follow ``stream`` through ``pipeline``, one sample a tick."""
+def live_frames(live: LiveSource) -> Iterator[Skeleton | None]:
+    """Return what each 30 Hz tick sees of a live stream, its stamps moved onto the ticks."""
+    last: Rebased | None = None
+    for tick in count():
+        taken = live.take()
+        if taken is None or taken.skeleton is None:
+            yield None
+        else:
+            time = tick * CONTROL_PERIOD
+            last = rebase(last, taken.stream, taken.skeleton.time, time)
+            yield replace(taken.skeleton, time=last.time)
+
+
+def follow_steps(
+    frames: Iterable[Skeleton | None],
+    pipeline: Pipeline,
+    world: World,
+    given: Callable[[Outcome], None] = lambda _: None,
+) -> Iterator[Sample]:
+    """Let the robot in ``world`` follow ``frames`` through ``pipeline``, one sample a tick.
+
+    ``given`` hears what a tick decided as soon as the robot has its command.
+    """
     memory = pipeline.start()
-    for tick, skeleton in enumerate(newest_frames(stream)):
+    for tick, skeleton in enumerate(frames):
         time = tick * CONTROL_PERIOD
         memory, outcome = pipeline.advance(memory, skeleton, time)
-        send(world, pipeline.side, outcome.command.sent)
+        send(world, pipeline.arms, outcome.command.sent, pipeline.hands.options, outcome.hands)
+        given(outcome)
         yield Sample.of(time, skeleton, outcome, world.step())
 
 
 def follow(stream: SkeletonRecording, pipeline: Pipeline) -> Recording:
     """Follow a whole stream in a fresh world and return the recording of it."""
     info = RecordingInfo.of(pipeline, stream)
-    with start_world(pipeline.side, pipeline.mapping) as world:
-        return Recording(info, tuple(follow_steps(stream, pipeline, world)))
+    with start_world(pipeline.arms, pipeline.mapping, pipeline.hands.options) as world:
+        return Recording(info, tuple(follow_steps(newest_frames(stream), pipeline, world)))

@@ -2,10 +2,31 @@
 
 from dataclasses import dataclass
 
-from studio.engine.skeleton import SIDES, FloatArray, Joint, Side, Skeleton, Tracking
+from studio.engine.skeleton import (
+    SIDES,
+    FloatArray,
+    Joint,
+    Side,
+    Skeleton,
+    Tracking,
+    other_side,
+)
 from studio.engine.vectors import Vector, angle_between, cross, dot, norm, subtract, unit
 
 SHORTEST_BONE = 0.02  # [m]; a shorter one is a sensor's fault and has no direction worth following
+LONGEST_BONE = 1.0  # [m]; nobody's is half as long: another unit, or two people taken for one
+
+
+# What an arm's directions need: the arm itself, then the torso.
+_NEEDED: dict[Side, list[int]] = {
+    side: [
+        *(Joint.of(part, side) for part in ("shoulder", "elbow", "wrist")),
+        Joint.of("shoulder", other_side(side)),
+        Joint.SPINE_BASE,
+        Joint.SPINE_SHOULDER,
+    ]
+    for side in SIDES
+}
 
 
 @dataclass(frozen=True)
@@ -35,6 +56,8 @@ class ArmVectors:
     torso: TorsoFrame
     upper_arm: Vector
     forearm: Vector
+    upper_arm_inferred: bool = False  # one of its ends the sensor has guessed, not seen
+    forearm_inferred: bool = False
 
 
 @dataclass(frozen=True)
@@ -63,26 +86,34 @@ def torso_frame(left: Vector, up: Vector) -> TorsoFrame | None:
 
 def arm_vectors(skeleton: Skeleton, side: Side) -> ArmVectors | Held:
     """Return the directions of one arm and of the torso, or why there are none."""
-    shoulder, elbow, wrist = (Joint.of(part, side) for part in ("shoulder", "elbow", "wrist"))
-    spine = (Joint.SPINE_BASE, Joint.SPINE_SHOULDER)
-    for joint in (shoulder, elbow, wrist, Joint.of("shoulder", _other(side)), *spine):
-        if skeleton.tracking[joint] == Tracking.NOT_TRACKED:
-            return Held(f"{_spoken(joint)} not tracked")
-    at = _points(skeleton.positions)
-    torso = torso_frame(
-        subtract(at[Joint.SHOULDER_LEFT], at[Joint.SHOULDER_RIGHT]),
-        subtract(at[Joint.SPINE_SHOULDER], at[Joint.SPINE_BASE]),
-    )
+    needed = _NEEDED[side]
+    tracking = skeleton.tracking[needed].tolist()
+    if Tracking.NOT_TRACKED in tracking:
+        lost = Joint(needed[tracking.index(Tracking.NOT_TRACKED)])
+        return Held(f"{_spoken(lost)} not tracked")
+    points = _points(skeleton.positions[needed])
+    shoulder, elbow, wrist, other_shoulder, spine_base, spine_shoulder = points
+    left, right = (shoulder, other_shoulder) if side == "left" else (other_shoulder, shoulder)
+    torso = torso_frame(subtract(left, right), subtract(spine_shoulder, spine_base))
     if torso is None:
         return Held("shoulders and spine span no torso")
-    upper_arm, forearm = subtract(at[elbow], at[shoulder]), subtract(at[wrist], at[elbow])
+    upper_arm, forearm = subtract(elbow, shoulder), subtract(wrist, elbow)
     for name, bone in (("upper arm", upper_arm), ("forearm", forearm)):
         if norm(bone) < SHORTEST_BONE:
             return Held(f"{side} {name} shorter than {SHORTEST_BONE * 100:.0f} cm")
+        if not norm(bone) <= LONGEST_BONE:
+            return Held(f"{side} {name} longer than {LONGEST_BONE:g} m: are these meters?")
     upper_arm_direction, forearm_direction = unit(upper_arm), unit(forearm)
     if upper_arm_direction is None or forearm_direction is None:
         return Held(f"{side} arm has no direction")
-    return ArmVectors(torso, upper_arm_direction, forearm_direction)
+    at_shoulder, at_elbow, at_wrist = (state == Tracking.INFERRED for state in tracking[:3])
+    return ArmVectors(
+        torso,
+        upper_arm_direction,
+        forearm_direction,
+        upper_arm_inferred=at_shoulder or at_elbow,
+        forearm_inferred=at_elbow or at_wrist,
+    )
 
 
 def human_arm_angles(skeleton: Skeleton, side: Side) -> HumanArmAngles:
@@ -107,7 +138,7 @@ def human_arm_angles(skeleton: Skeleton, side: Side) -> HumanArmAngles:
         at[Joint.of(part, side)]
         for part in ("hip", "shoulder", "elbow", "wrist", "thumb", "hand_tip")
     )
-    d = at[Joint.of("shoulder", _other(side))]
+    d = at[Joint.of("shoulder", other_side(side))]
     ef, fg = subtract(f, e), subtract(g, f)
     normal_le, normal_me = cross(ef, fg), cross(ef, subtract(e, d))
     gn = subtract(n, g)
@@ -127,10 +158,6 @@ def _points(positions: FloatArray) -> list[Vector]:
 
 def _on_floor(vector: Vector) -> Vector:
     return (vector[0], 0.0, vector[2])
-
-
-def _other(side: Side) -> Side:
-    return SIDES[1 - SIDES.index(side)]
 
 
 def _spoken(joint: Joint) -> str:

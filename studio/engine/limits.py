@@ -1,6 +1,6 @@
 """The last stage before any robot: no command ever passes a joint's position or velocity limit."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,18 @@ class Command:
     sent: FloatArray  # (D,) [rad]
     position_limited: NDArray[np.bool_]  # (D,)
     velocity_limited: NDArray[np.bool_]  # (D,)
+    guarded: str = ""  # what the collision guard keeps apart, in words
+    stopped: bool = False  # they are so near that the guard lets them come no nearer
+    resting: str = ""  # the same in words, if that is what an arm does that just hangs
+
+    def of_first(self, count: int) -> "Command":
+        """Return the command of the first joints alone."""
+        return replace(
+            self,
+            sent=self.sent[:count],
+            position_limited=self.position_limited[:count],
+            velocity_limited=self.velocity_limited[:count],
+        )
 
     @property
     def limited(self) -> bool:

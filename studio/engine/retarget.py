@@ -26,7 +26,10 @@ LEARNED_JOINTS: dict[Mapping, tuple[str, ...]] = {
 MEDIAN_PAPER_FOREARM_ERROR = math.radians(48)  # of the paper mapping, on real recordings
 
 _MOUNT_YAW: dict[Side, float] = {"left": 0.7854, "right": -0.7854}  # the URDF's number, not π/4
+# Worked out once: this runs for every frame.
+_MOUNT = {side: (math.cos(yaw), math.sin(yaw)) for side, yaw in _MOUNT_YAW.items()}
 _UPPER_ARM_OFFSET = math.atan2(0.069, 0.36442)
+_OFFSET_COSINE, _OFFSET_SINE = math.cos(_UPPER_ARM_OFFSET), math.sin(_UPPER_ARM_OFFSET)
 _FOREARM_OFFSET = math.atan2(0.010, 0.37429)
 
 
@@ -66,17 +69,17 @@ def arm_angles(
 def solve_arm(upper_arm: Vector, forearm: Vector, side: Side, mapping: Mapping) -> Angles:
     """Do as `arm_angles` does, on unit vectors and without checks: the live loop's version."""
     u, f = _into_mount(upper_arm, side), _into_mount(forearm, side)
-    normal = _plane_normal(u, f)
-    opening = math.atan2(norm(cross(u, f)), dot(u, f))
+    across = cross(u, f)
+    normal = _plane_normal(u, across)
+    opening = math.atan2(norm(across), dot(u, f))
     if mapping == "paper":
         s0, s1 = _shoulder(u)
         return (s0, s1, 0.0, opening)
-    cosine, sine = math.cos(_UPPER_ARM_OFFSET), math.sin(_UPPER_ARM_OFFSET)
     lifted = cross(normal, u)
     axis: Vector = (
-        cosine * u[0] - sine * lifted[0],
-        cosine * u[1] - sine * lifted[1],
-        cosine * u[2] - sine * lifted[2],
+        _OFFSET_COSINE * u[0] - _OFFSET_SINE * lifted[0],
+        _OFFSET_COSINE * u[1] - _OFFSET_SINE * lifted[1],
+        _OFFSET_COSINE * u[2] - _OFFSET_SINE * lifted[2],
     )
     s0, s1 = _shoulder(axis)
     return (s0, s1, _roll(normal, s0, s1), opening + _UPPER_ARM_OFFSET - _FOREARM_OFFSET)
@@ -109,14 +112,14 @@ def _roll(normal: Vector, s0: float, s1: float) -> float:
 
 
 def _into_mount(vector: Vector, side: Side) -> Vector:
-    cosine, sine = math.cos(_MOUNT_YAW[side]), math.sin(_MOUNT_YAW[side])
+    cosine, sine = _MOUNT[side]
     x, y, z = vector
     return (cosine * x + sine * y, -sine * x + cosine * y, z)
 
 
-def _plane_normal(u: Vector, f: Vector) -> Vector:
-    """Return the unit normal of the arm's plane; of a straight arm, of any plane through it."""
-    normal = unit(cross(u, f)) or _any_normal(u)
+def _plane_normal(u: Vector, across: Vector) -> Vector:
+    """Return the arm's plane's unit normal, along u × f; of a straight arm, any plane's."""
+    normal = unit(across) or _any_normal(u)
     # Of a nearly straight arm the cross product is mostly rounding, and may lean towards the arm.
     lean = dot(normal, u)
     across = (normal[0] - lean * u[0], normal[1] - lean * u[1], normal[2] - lean * u[2])

@@ -165,6 +165,11 @@ class Skeleton:
         return self.left_hand if side == "left" else self.right_hand
 
 
+def other_side(side: Side) -> Side:
+    """Return the other side."""
+    return "right" if side == "left" else "left"
+
+
 def all_tracked() -> NDArray[np.int8]:
     """Return the tracking states (25,) of a source that does not tell them: every joint tracked."""
     return np.full(JOINT_COUNT, Tracking.TRACKED, dtype=np.int8)

@@ -1,7 +1,7 @@
 """The URDF files of this project, read: links with their shapes, and the joints between them.
 
-Only what our own files use: revolute and fixed joints, boxes, cylinders, spheres and meshes. (The
-tests compare with yourdfpy, which reads all of URDF, but takes 0.7 s to import.)
+Only what our own files use: revolute, prismatic and fixed joints, boxes, cylinders, spheres and
+meshes. (The tests compare with yourdfpy, which reads all of URDF, but takes 0.7 s to import.)
 """
 
 from dataclasses import dataclass
@@ -81,7 +81,9 @@ class UrdfJoint:
     movable: bool
     T_parent_joint: FloatArray  # (4, 4)
     axis: FloatArray  # (3,) unit vector
-    limits: tuple[float, float, float, float]  # lower, upper [rad], velocity [rad/s], effort [N m]
+    # Lower, upper [rad], velocity [rad/s], effort [N m]; of one that slides in m, m/s and N.
+    limits: tuple[float, float, float, float]
+    slides: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +102,17 @@ def read_urdf(path: Path) -> Urdf:
     FileError
         Where the file is missing, is not XML, or holds something that is not read here.
     """
-    root = parse_xml(path)
+    return urdf_of(parse_xml(path), path)
+
+
+def urdf_of(root: Element, path: Path) -> Urdf:
+    """Read a description that has been parsed already; ``path`` names it in errors.
+
+    Raises
+    ------
+    FileError
+        Where it holds something that is not read here.
+    """
     try:
         colors = {m.attrib["name"]: _color(m) for m in root.findall("material")}
         links = tuple(_link(element, colors) for element in root.findall("link"))
@@ -167,8 +179,8 @@ def _shape(element: Element) -> Shape:
 
 def _joint(element: Element) -> UrdfJoint:
     kind = element.attrib["type"]
-    if kind not in ("revolute", "fixed"):
-        raise ValueError(f"a {kind} joint, not a revolute or fixed one")
+    if kind not in ("revolute", "prismatic", "fixed"):
+        raise ValueError(f"a {kind} joint, not a revolute, prismatic or fixed one")
     limit, axis = element.find("limit"), element.find("axis")
     limits = {} if limit is None else limit.attrib
     lower, upper, velocity, effort = (
@@ -178,10 +190,11 @@ def _joint(element: Element) -> UrdfJoint:
         name=element.attrib["name"],
         parent=_named(element, "parent"),
         child=_named(element, "child"),
-        movable=kind == "revolute",
+        movable=kind != "fixed",
         T_parent_joint=_origin(element),
         axis=_numbers("1 0 0" if axis is None else axis.attrib["xyz"]),
         limits=(lower, upper, velocity, effort),
+        slides=kind == "prismatic",
     )
 
 

@@ -51,6 +51,9 @@ def angle_between(a: Vector, b: Vector) -> float:
 
     By atan2, which stays exact where the law of cosines' arccos loses half of its digits.
     """
-    if unit(a) is None or unit(b) is None:
-        return math.nan
+    return math.nan if unit(a) is None or unit(b) is None else turn_between(a, b)
+
+
+def turn_between(a: Vector, b: Vector) -> float:
+    """Do as `angle_between` does, for vectors that are known to have a direction."""
     return math.atan2(norm(cross(a, b)), dot(a, b))

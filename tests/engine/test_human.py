@@ -59,6 +59,18 @@ def test_bodies_without_extent_are_refused_in_words() -> None:
     assert held == Held("left forearm shorter than 2 cm")
 
 
+@pytest.mark.parametrize("scale", [10.0, 100.0, 1000.0, 1e200])
+def test_bones_longer_than_anybodys_are_refused_in_words(scale: float) -> None:
+    wrong = Skeleton(0.0, scale * person().positions, all_tracked())
+    held = arm_vectors(wrong, "left")
+    assert held == Held("left upper arm longer than 1 m: are these meters?")
+
+
+def test_the_longest_arms_are_followed() -> None:
+    tall = Skeleton(0.0, 1.6 * person().positions, all_tracked())  # bones of 0.45 m
+    assert isinstance(arm_vectors(tall, "left"), ArmVectors)
+
+
 def cosine_law(a: np.ndarray, b: np.ndarray) -> float:
     """Return the angle of two vectors by the paper's Eq. 3."""
     return math.acos(np.clip(a @ b / (np.linalg.norm(a) * np.linalg.norm(b)), -1.0, 1.0))

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from studio.engine.arms import driven_joints
 from studio.engine.errors import StudioError
 from studio.engine.performance import whole_body
 from studio.engine.resources import resource_root
@@ -81,7 +82,7 @@ def test_an_arm_that_is_nearly_straight_or_folded_points_as_well(side: Side, ben
     u = np.array([unit(rng.normal(size=3)) for _ in range(200)])
     f = [unit(rng.choice([-1.0, 1.0]) * v + bend * rng.normal(size=3)) for v in u]
     rows = np.array([arm_angles(*pair, side) for pair in zip(u, f, strict=True)])
-    body = whole_body(rows, side, DRIVEN_JOINTS)
+    body = whole_body(rows, driven_joints(side))
     shoulder, elbow, wrist = (
         load_robot().forward_kinematics(f"{side}_{link}", body)[:, :3, 3]
         for link in ("lower_shoulder", "lower_elbow", "lower_forearm")

@@ -61,3 +61,27 @@ def test_forgetting_leaves_no_trace() -> None:
     direction = heading(0.3)
     assert FILTER.step(None, direction, 5.0) == FILTER.step(None, direction, 5.0)
     assert FILTER.step(None, direction, 5.0)[1] == direction
+
+
+def test_trust_is_the_share_of_the_news_that_is_let_through() -> None:
+    start, _ = FILTER.step(None, heading(0.0), 0.0)
+    moved = [
+        math.atan2(*reversed(FILTER.step(start, heading(0.2), 1 / 30, trust)[1][:2]))
+        for trust in (0.0, 0.5, 1.0)
+    ]
+    assert moved[0] == 0.0
+    assert abs(moved[1] / moved[2] - 0.5) < 0.01
+
+
+def test_a_steady_turn_is_carried_on_for_a_moment_and_then_held() -> None:
+    memory = None
+    for i in range(60):
+        memory, smoothed = FILTER.step(memory, heading(i / 30), i / 30)  # 1 rad/s
+    at = math.atan2(smoothed[1], smoothed[0])
+    ahead = [math.atan2(*reversed(FILTER.ahead(memory, i / 30)[:2])) - at for i in range(10)]
+    assert ahead[0] == 0.0
+    assert 0.8 / 30 < ahead[1] < 1.0 / 30  # nearly at the turn's own speed to begin with
+    assert (np.diff(ahead[:4]) > 0.0).all()
+    assert ahead[4:] == [ahead[4]] * 6
+    assert ahead[9] < 0.07
+    assert abs(math.hypot(*FILTER.ahead(memory, 0.1)) - 1.0) < 1e-12

@@ -53,7 +53,7 @@ def test_each_shape_is_read(tmp_path: Path, xml: str, shape: object) -> None:
         (LINK.format('<box size="1 2"/>', ""), "not a URDF file of the studio's"),
         (LINK.format('<box size="1 2 x"/>', ""), "'x'"),
         (LINK.format('<sphere radius="1"/>', '<material name="red"/>'), "red"),
-        ('<joint name="j" type="prismatic"/>', "prismatic"),
+        ('<joint name="j" type="continuous"/>', "continuous"),
         ('<joint name="j" type="fixed"/>', "without <parent>"),
         ('<material name="red"/>', "without <color>"),
         ("<link", "cannot be read as XML"),
