@@ -7,23 +7,51 @@ import time
 import webbrowser
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from studio.engine import commands
-from studio.engine.clock import LiveLoop
+from studio.engine.choices import Choices
+from studio.engine.clock import LiveLoop, now
 from studio.engine.errors import StudioError
 from studio.engine.experiment import Setup
+from studio.engine.live.access import Address
+from studio.engine.live.listener import Listener
+from studio.engine.live.source import LiveSource
 from studio.engine.resources import samples_folder
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode, Snapshot
 from studio.panels.app import App
 
 
-def serve_studio(host: str, port: int, recordings: Path, browser: bool) -> None:
-    """Serve the studio with the samples loaded until interrupted."""
-    with LiveLoop(lambda: Session(recordings)) as loop, App(loop, host, port) as app:
+@dataclass(frozen=True)
+class Streams:
+    """Where live streams are taken."""
+
+    address: Address | None = None  # None: on this machine, at the first free port from the usual
+    token: str | None = None
+
+
+def serve_studio(host: str, port: int, recordings: Path, browser: bool, streams: Streams) -> None:
+    """Serve the studio with the samples loaded until interrupted.
+
+    Raises
+    ------
+    StudioError
+        Where live streams can't be taken at the address asked for.
+    """
+    live = LiveSource(now)
+    listener = Listener(
+        live, streams.address or Address(), streams.token, next_free=streams.address is None
+    )
+    with (
+        listener,
+        LiveLoop(lambda: Session(recordings, live=live)) as loop,
+        App(loop, host, port) as app,
+    ):
         for sample in sorted(samples_folder().glob("*.mcap")):
             loop.session.post(commands.UseFile(sample))
+        print(f"Live streams are taken at {listener.address.url}", flush=True)
         _announce(app.url, browser)
         serve_until_interrupted()
 
@@ -51,7 +79,8 @@ def shown_demo(port: int, setup: Setup, demonstrations: int) -> Iterator[None]:
         with LiveLoop(build) as loop, App(loop, "127.0.0.1", port) as app:
             _announce(app.url, browser=True)
             session = loop.session
-            session.post(commands.Configure(setup.side, setup.mapping, setup.gate))
+            choices = Choices(setup.arms, setup.mapping, setup.gate, setup.mirrored, setup.hands)
+            session.post(commands.Configure(choices))
             for take in range(1, demonstrations + 1):
                 _say(f"the demonstrator teaches, {take} of {demonstrations}")
                 session.post(commands.UseDemonstrator())
