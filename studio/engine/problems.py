@@ -4,14 +4,16 @@ Frames are counted from 0, as in the file. The gate and the arm are asked themse
 words here are the ones that a person reads while teaching.
 """
 
-from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from studio.engine.gate import SEQUENCE, UNSEEN, Gate, GateMemory
+from studio.engine.calibration import Calibration
+from studio.engine.gate import SEQUENCE, UNSEEN, Gate
+from studio.engine.gate_summary import gate_statuses, summarize
 from studio.engine.human import ArmVectors, Held, arm_vectors
 from studio.engine.retarget import solve_arm
 from studio.engine.skeleton import FRAME_RATE, SIDES, FloatArray, HandState, Joint, Side, Tracking
@@ -27,8 +29,13 @@ Problems = Iterator[str]
 Mask = NDArray[np.bool_]
 
 
-def find_problems(recording: SkeletonRecording) -> tuple[str, ...]:
-    """Return the problems of a recording as sentences; none where all is well."""
+def find_problems(
+    recording: SkeletonRecording, calibration: Calibration | None = None
+) -> tuple[str, ...]:
+    """Return the problems of a recording as sentences; none where all is well.
+
+    Arms and sides in them are the person's.
+    """
     if not len(recording):
         return ("nobody is seen in this file",)
     finders: tuple[Callable[[SkeletonRecording], Problems], ...] = (
@@ -36,7 +43,7 @@ def find_problems(recording: SkeletonRecording) -> tuple[str, ...]:
         _body_problems,
         _timing_problems,
         _gate_problems,
-        _arm_problems,
+        partial(_arm_problems, calibration=calibration),
     )
     return tuple(problem for find in finders for problem in find(recording))
 
@@ -50,6 +57,15 @@ def duplicate_frames(recording: SkeletonRecording) -> Mask:
     ]
     duplicates: Mask = following & np.array([False, *same][: len(recording)], dtype=bool)
     return duplicates
+
+
+def dropped_frames(recording: SkeletonRecording) -> int:
+    """Return how many frames are missing, judged by intervals of twice the median and more."""
+    intervals = np.diff(recording.frame_times)
+    if not recording.has_stamps or not (intervals > 0).any():
+        return 0
+    median = float(np.median(intervals[intervals > 0]))
+    return int(np.maximum(np.rint(intervals / median) - 1, 0).sum())
 
 
 def runs_of(mask: Mask) -> list[tuple[int, int]]:
@@ -125,9 +141,9 @@ def _gate_problems(recording: SkeletonRecording) -> Problems:
     missing = _missing_sign(states)
     if missing:
         yield f"{gate.hand} hand: {missing}"
-    reasons = _gate_reasons(gate, recording)
-    if reasons:
-        counts = ", ".join(f"{reason} ({count} frames)" for reason, count in reasons.most_common())
+    found = summarize(gate_statuses(gate, recording))
+    if not found.armed:
+        counts = ", ".join(f"{reason} ({count} frames)" for reason, count in found.reasons)
         yield f"the gate never arms: {counts}"
 
 
@@ -162,19 +178,7 @@ def _missing_sign(states: list[HandState]) -> str:
     return ""
 
 
-def _gate_reasons(gate: Gate, recording: SkeletonRecording) -> Counter[str]:
-    """Return why the gate stays closed and in how many frames; nothing if it arms at all."""
-    memory: GateMemory | None = None
-    reasons: Counter[str] = Counter()
-    for time, skeleton in recording.by_frame():
-        memory, status = gate.step(memory, skeleton, time)
-        if status.armed:
-            return Counter()
-        reasons[status.reason] += 1
-    return reasons
-
-
-def _arm_problems(recording: SkeletonRecording) -> Problems:
+def _arm_problems(recording: SkeletonRecording, calibration: Calibration | None) -> Problems:
     for side in SIDES:
         for part in ("shoulder", "elbow", "wrist"):
             joint = Joint.of(part, side)
@@ -187,14 +191,18 @@ def _arm_problems(recording: SkeletonRecording) -> Problems:
         for reason in sorted(set(reasons) - {""}):
             held = _by_frame(recording, [each == reason for each in reasons])
             yield f"{side} arm held, {reason}: {_places(held)}"
-        yield from _reach_problems([each for each in seen if isinstance(each, ArmVectors)], side)
+        arms = [each for each in seen if isinstance(each, ArmVectors)]
+        yield from _reach_problems(arms, side, calibration)
         yield from _forearm_problems(recording, side)
 
 
-def _reach_problems(arms: list[ArmVectors], side: Side) -> Problems:
+def _reach_problems(
+    arms: list[ArmVectors], side: Side, calibration: Calibration | None
+) -> Problems:
     below = 0
     for arm in arms:
-        upper_arm, forearm = (arm.torso.from_camera(bone) for bone in (arm.upper_arm, arm.forearm))
+        bones = [arm.torso.from_camera(bone) for bone in (arm.upper_arm, arm.forearm)]
+        upper_arm, forearm = map(calibration.correct, bones) if calibration else bones
         below += solve_arm(upper_arm, forearm, side, "exact")[1] > LOWEST_UPPER_ARM
     if below:
         yield (

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from studio.engine.arms import in_words, learned_joints
 from studio.engine.demonstration import SAMPLES
 from studio.engine.experiment import Experiment, FileOutcome, Setup
 from studio.engine.measures import Deviation
-from studio.engine.retarget import LEARNED_JOINTS
+from studio.engine.performance import Performance, in_guards_words
 from studio.engine.skeleton import FloatArray
 from studio.engine.teaching import Lesson, Replay, Reproduction
 
@@ -27,9 +28,9 @@ def as_json(experiment: Experiment) -> dict[str, Any]:
 def _nothing(setup: Setup) -> dict[str, Any]:
     """Return the same keys as `as_results` where nothing was taught: null for what there is not."""
     return {
-        "arm": setup.side,
+        "arm": setup.arms,
         "mapping": setup.mapping,
-        "joints": [f"{setup.side}_{joint}" for joint in LEARNED_JOINTS[setup.mapping]],
+        "joints": list(learned_joints(setup.arms, setup.mapping)),
         "samples": SAMPLES,
         "learner": {"name": setup.learner.name, "neurons": setup.learner.neurons},
         "mse": None,
@@ -48,7 +49,7 @@ def as_results(
     joints = joint_names(lesson)
     floor = lesson.floor
     return {
-        "arm": lesson.taught.side,
+        "arm": lesson.taught.arms,
         "mapping": lesson.taught.mapping,
         "joints": list(joints),
         "samples": SAMPLES,
@@ -59,13 +60,13 @@ def as_results(
         "remark": lesson.remark,
         "reproduction": {
             **_deviation(joints, reproduction.deviation),
-            "block_down": reproduction.performance.block_down,
+            **_performed(reproduction.performance),
         },
         "demonstrations": [
             {
                 "name": demonstration.name,
                 "seconds": demonstration.duration,
-                "block_down": each.performance.block_down,
+                **_performed(each.performance),
                 "interpolation": _deviation(joints, each.interpolation),
             }
             for demonstration, each in zip(lesson.taught.demonstrations, replays, strict=True)
@@ -75,7 +76,7 @@ def as_results(
 
 def joint_names(lesson: Lesson) -> tuple[str, ...]:
     """Return Baxter's own names of the learned joints: ``left_s0``."""
-    return tuple(f"{lesson.taught.side}_{joint}" for joint in lesson.taught.joints)
+    return lesson.taught.joints
 
 
 def as_text(experiment: Experiment) -> str:
@@ -93,6 +94,10 @@ def as_text(experiment: Experiment) -> str:
         f"replays {', '.join(_yes(r.performance.block_down) for r in experiment.replays)}.",
         _interpolation_line(experiment.replays),
     ]
+    played = {"Alone": reproduction.performance}
+    played |= {f"Replay {i}": each.performance for i, each in enumerate(experiment.replays, 1)}
+    said = {name: in_guards_words(performance) for name, performance in played.items()}
+    lines += [f"{name}: {words}" for name, words in said.items() if words]
     return "\n".join(lines)
 
 
@@ -124,7 +129,7 @@ def _learner_line(lesson: Lesson) -> str:
     return (
         f"Learned by {lesson.settings.name} with {count} neurons from {shown} "
         f"demonstration{'s' * (shown != 1)} of {taught.duration:.1f} s, "
-        f"{SAMPLES} x {len(taught.joints)} each, {taught.side} arm, {taught.mapping} mapping:"
+        f"{SAMPLES} x {len(taught.joints)} each, {in_words(taught.arms)}, {taught.mapping} mapping:"
     )
 
 
@@ -163,6 +168,14 @@ def _deviation(joints: Sequence[str], error: Deviation) -> dict[str, Any]:
             "max": 1000.0 * error.hand_max,
             "dtw": 1000.0 * error.hand_dtw,
         },
+    }
+
+
+def _performed(performance: Performance) -> dict[str, Any]:
+    return {
+        "block_down": performance.block_down,
+        "guarded_ticks": performance.guarded_ticks,
+        "refusal": performance.refusal,
     }
 
 

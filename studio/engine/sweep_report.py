@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from studio.engine.arms import in_words, short_names
 from studio.engine.comparison import Contestant
 from studio.engine.demonstration import SAMPLES, DemonstrationSet
 from studio.engine.learners import BUDGET, LEARNER_KINDS
 from studio.engine.paper import paper_table
+from studio.engine.performance import in_guards_words
 from studio.engine.skeleton import FloatArray
 from studio.engine.sweep import Played, Quality, Sweep
 
@@ -18,9 +20,9 @@ from studio.engine.sweep import Played, Quality, Sweep
 def sweep_as_json(table: Sweep, contestants: Sequence[Contestant] = ()) -> dict[str, Any]:
     """Return the object that ``--json`` prints: MSE in rad², other angles in degrees."""
     taught = table.taught
-    joints = taught_joints(taught)
+    joints = taught.joints
     shown: dict[str, Any] = {
-        "arm": taught.side,
+        "arm": taught.arms,
         "mapping": taught.mapping,
         "joints": list(joints),
         "samples": SAMPLES,
@@ -58,26 +60,24 @@ def sweep_as_json(table: Sweep, contestants: Sequence[Contestant] = ()) -> dict[
     return shown
 
 
-def taught_joints(taught: DemonstrationSet) -> tuple[str, ...]:
-    """Return Baxter's own names of the learned joints: ``left_s0``."""
-    return tuple(f"{taught.side}_{joint}" for joint in taught.joints)
-
-
 def sweep_as_text(table: Sweep, contestants: Sequence[Contestant] = ()) -> str:
     """Return the same for people."""
     lines = [_title(table.taught), ""]
-    joints = table.taught.joints
+    joints = short_names(table.taught.joints)
+    width = max(10, 4 + max(map(len, joints)))
     lines.append(
-        f"  {'learner':8s} neurons  {' '.join(f'MSE {joint:6s}' for joint in joints)} "
+        f"  {'learner':8s} neurons  {' '.join(f'MSE {joint}'.ljust(width) for joint in joints)} "
         f"{_QUALITY_HEADER}"
     )
     for row in table.rows:
-        mse = " ".join(f"{value:.4e}" for value in row.quality.mse)
+        mse = " ".join(f"{value:.4e}".ljust(width) for value in row.quality.mse)
         lines.append(f"  {row.learner:8s} {row.neurons:7d}  {mse} {_quality_line(row.quality)}")
     if table.floor is None:
         lines.append(f"  (no floor: {table.floor_note})")
     else:
-        lines.append(f"  {'floor':8s} {'':7s}  {' '.join(f'{v:.4e}' for v in table.floor)}")
+        lines.append(
+            f"  {'floor':8s} {'':7s}  {' '.join(f'{v:.4e}'.ljust(width) for v in table.floor)}"
+        )
     lines.append("")
     for name, suggestion in table.suggestions.items():
         lines.append(f"{name}: {suggestion.words}")
@@ -95,8 +95,8 @@ _QUALITY_HEADER = "  /floor  held-out  ε* [deg]  acceleration  ripple [deg]  fi
 def _title(taught: DemonstrationSet) -> str:
     return (
         f"{len(taught.demonstrations)} demonstrations of {taught.duration:.1f} s in the mean, "
-        f"{SAMPLES} x {len(taught.joints)} each, {taught.side} arm, {taught.mapping} mapping. "
-        "MSE in rad²."
+        f"{SAMPLES} x {len(taught.joints)} each, {in_words(taught.arms)}, "
+        f"{taught.mapping} mapping. MSE in rad²."
     )
 
 
@@ -111,6 +111,8 @@ def _quality_line(quality: Quality) -> str:
 def _played_line(played: Played) -> str:
     down = "the block falls" if played.performance.block_down else "the block stays up"
     off = f"{down}, the hand is {1000.0 * played.deviation.hand_mean:.1f} mm off in the mean."
+    guarded = in_guards_words(played.performance)
+    off = f"{off}\n  ({guarded})" if guarded else off
     return f"{off}\n  ({played.remark})" if played.remark else off
 
 
@@ -171,6 +173,8 @@ def _quality(joints: Sequence[str], quality: Quality) -> dict[str, Any]:
 def _played(played: Played) -> dict[str, Any]:
     return {
         "block_down": played.performance.block_down,
+        "guarded_ticks": played.performance.guarded_ticks,
+        "refusal": played.performance.refusal,
         "remark": played.remark,
         "hand_error_mm": {
             "mean": 1000.0 * played.deviation.hand_mean,

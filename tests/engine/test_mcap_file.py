@@ -13,13 +13,18 @@ import numpy as np
 import pytest
 from mcap.reader import make_reader
 
-from studio.engine import mcap_file
+from studio.engine import mcap_file, mcap_log
+from studio.engine.arms import driven_joints
+from studio.engine.calibration import Calibration
 from studio.engine.errors import FileError
 from studio.engine.follow import follow
-from studio.engine.mcap_file import is_mcap, read_recording, write_recording
-from studio.engine.mcap_messages import CHANNELS
+from studio.engine.live.latency import LatencyChain, Spread
+from studio.engine.mcap_file import read_recording, write_recording
+from studio.engine.mcap_log import is_mcap
+from studio.engine.mcap_messages import CHANNELS, messages_of
 from studio.engine.pipeline import Pipeline
 from studio.engine.recording import Recording
+from studio.engine.resources import samples_folder
 from studio.engine.robot import load_robot
 from studio.engine.sources.demonstrator import demonstrate
 
@@ -57,6 +62,51 @@ def test_write_then_read_is_identity(recording, tmp_path: Path) -> None:
     assert len(again.samples) == len(recording.samples)
     for a, b in zip(recording.samples, again.samples, strict=True):
         assert same(a, b)
+
+
+def test_both_arms_mirrored_and_calibrated_come_back_too(tmp_path: Path) -> None:
+    calibration = Calibration((0.1, -0.05, -0.9))
+    line = Pipeline.for_robot(load_robot(), "both", "paper", "open", True, calibration)
+    full = follow(demonstrate(0, 1), line)
+    recording = Recording(full.info, full.samples[:40])
+    write_recording(tmp_path / "both.mcap", recording)
+    again = read_recording(tmp_path / "both.mcap")
+    assert again.info == recording.info
+    assert (again.info.mirrored, again.info.calibration) == (True, calibration)
+    assert all(same(a, b) for a, b in zip(recording.samples, again.samples, strict=True))
+    assert len(again.samples[-1].sent) == len(again.samples[-1].wanted) == 8
+
+
+@pytest.mark.parametrize(
+    ("known", "what"),
+    [
+        ({"arms": "both"}, "expected 8 angles"),
+        ({"mirrored": "perhaps"}, "mirroring or calibration"),
+        ({"calibration": Calibration((0.0, 0.0, -1.0)), "down": (1.0, 0.0, 0.0)}, "calibration"),
+    ],
+)
+def test_metadata_that_do_not_fit_are_refused(recording, tmp_path: Path, known, what) -> None:
+    if "down" in known:  # past its own check, as a damaged file may have it
+        object.__setattr__(known["calibration"], "down", known.pop("down"))
+    path = tmp_path / "bent.mcap"
+    write_recording(path, Recording(replace(recording.info, **known), recording.samples))
+    with pytest.raises(FileError, match=what):
+        read_recording(path)
+
+
+def test_the_latency_of_a_live_run_comes_back(recording, tmp_path: Path) -> None:
+    chain = LatencyChain(waiting=Spread(0.001, 0.004), total=Spread(0.002, 0.03))
+    samples = list(recording.samples)
+    samples[29] = replace(samples[29], latency=chain)
+    write_recording(tmp_path / "live.mcap", Recording(recording.info, tuple(samples)))
+    again = [sample.latency for sample in read_recording(tmp_path / "live.mcap").samples]
+    assert again == [sample.latency for sample in samples]
+
+
+def test_recordings_from_before_mirroring_and_calibration_still_read() -> None:
+    for path in sorted(samples_folder().glob("*.mcap")):
+        info = read_recording(path).info
+        assert (info.arms, info.mirrored, info.calibration) == ("left", False, None)
 
 
 def test_the_same_recording_gives_the_same_bytes(recording, content, tmp_path: Path) -> None:
@@ -136,7 +186,7 @@ def test_flipped_bytes_never_give_a_traceback(recording, content, tmp_path: Path
 
 
 def test_what_is_no_recording_is_refused_by_name(tmp_path: Path) -> None:
-    for name, bad in {"text": b"hello", "empty": b"", "magic": mcap_file.MAGIC}.items():
+    for name, bad in {"text": b"hello", "empty": b"", "magic": mcap_log.MAGIC}.items():
         (tmp_path / name).write_bytes(bad)
         with pytest.raises(FileError, match=name):
             read_recording(tmp_path / name)
@@ -160,6 +210,60 @@ def test_a_whole_file_of_impossible_numbers_is_refused(recording, tmp_path: Path
     write_recording(tmp_path / "bad.mcap", Recording(recording.info, tuple(samples)))
     with pytest.raises(FileError, match=r"bad\.mcap"):
         read_recording(tmp_path / "bad.mcap")
+
+
+HUGE = 10**400  # a whole number that JSON may hold, and no float
+
+
+@pytest.mark.parametrize("value", [HUGE, [HUGE] * 7, {}, [], "1", True, None, "\ud800", [[1.0]]])
+def test_any_value_at_any_place_is_read_or_refused(recording, tmp_path, monkeypatch, value) -> None:
+    """Each key of each channel in turn; what is read is of the right kind."""
+    sample = replace(recording.samples[0], latency=LatencyChain(total=Spread(0.1, 0.2)))
+    joints = driven_joints("left")
+    places = [(topic, key) for topic, told in messages_of(sample, joints) for key in told]
+    read = []
+    for number, (topic, key) in enumerate(places):
+        told = dict(messages_of(sample, joints))
+        told[topic] = {**told[topic], key: value}
+        monkeypatch.setattr(mcap_file, "messages_of", lambda *_, told=told: told.items())
+        path = tmp_path / f"{number}.mcap"
+        write_recording(path, Recording(recording.info, (sample,)))
+        monkeypatch.undo()
+        found = _read_or_refuse(path)
+        if found is not None:
+            read.append(key)
+            _check_kinds(sample, found.samples[0])
+    assert len(read) < len(places) / 2
+
+
+def _check_kinds(a, b) -> None:
+    for name in a.__dataclass_fields__:
+        one, other = getattr(a, name), getattr(b, name)
+        if hasattr(one, "__dataclass_fields__") and other is not None:
+            _check_kinds(one, other)
+        elif isinstance(one, bool | str):
+            assert type(one) is type(other), name
+        elif isinstance(one, np.ndarray):
+            assert other.dtype == one.dtype, name
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        *[("calibration", text) for text in (f"[{HUGE}, 0, -1]", "[1, 2]", '"x"', "{}", "NaN")],
+        *[(key, text) for key in ("mirrored", "gripper") for text in ("1", "null", "9" * 5000)],
+        *[("calibration", "[" * 100_000), ("wrist", "bent")],
+    ],
+)
+def test_any_metadata_are_read_or_refused(recording, tmp_path, monkeypatch, key, value) -> None:
+    class Bent(mcap_log.LogWriter):
+        def __init__(self, file, metadata, *rest) -> None:
+            super().__init__(file, {**metadata, key: value}, *rest)
+
+    monkeypatch.setattr(mcap_file, "LogWriter", Bent)
+    write_recording(tmp_path / "bent.mcap", Recording(recording.info, recording.samples[:2]))
+    with pytest.raises(FileError, match=r"bent\.mcap: its metadata"):
+        read_recording(tmp_path / "bent.mcap")
 
 
 def test_kill_while_recording_loses_a_second_at_most(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from studio.engine.problems import duplicate_frames, find_problems, runs_of
+from studio.engine.problems import dropped_frames, duplicate_frames, find_problems, runs_of
 from studio.engine.skeleton import Hand, HandState, Joint, Skeleton, Tracking, all_tracked
 from studio.engine.sources.family import Frame, ParsedFile, any_hand_state
 from studio.engine.sources.recording import follow
@@ -82,10 +82,11 @@ def test_frames_without_a_body_are_counted_and_placed():
 
 def test_several_bodies_and_who_is_followed():
     frames = arming()
-    frames[40:] = [frame(index, CLOSED, "1") for index in range(40, 45)]
+    frames += [frame(index, CLOSED, "1") for index in range(45, 65)]
     assert problems(*frames) == [
-        "2 bodies are seen: 0 (40 frames), 1 (5 frames)",
-        "the body that is followed changes: 1 from frame 40 on",
+        "2 bodies are seen: 0 (45 frames), 1 (20 frames)",
+        "the body that is followed changes: 1 from frame 60 on",
+        "nobody to follow in 15 of 65 frames (45-59)",  # the first one is waited for
     ]
 
 
@@ -101,8 +102,23 @@ def test_duplicates_are_counted_and_placed():
 def test_the_same_picture_after_a_gap_or_of_another_body_is_no_duplicate():
     still = frame(0), frame(0), None, frame(0), frame(0, body_id="1")
     frames = [Frame(i / 30, () if each is None else (each,)) for i, each in enumerate(still)]
+    frames.append(Frame(1.0, (frame(0, body_id="1"),)))
     recording = follow(ParsedFile("made up", frames, True, True, True), "x")
+    assert [skeleton.body_id for skeleton in recording] == ["0", "0", "0", "1"]
     assert duplicate_frames(recording).tolist() == [False, True, False, False]
+
+
+def test_dropped_frames_are_those_that_the_stamps_miss():
+    def dropped(times, has_stamps=True):
+        frames = [Frame(time, (frame(0),)) for time in times]
+        return dropped_frames(follow(ParsedFile("made up", frames, True, True, has_stamps), "x"))
+
+    assert dropped([0, 1, 2, 3, 4]) == 0
+    assert dropped([0, 1, 2, 4, 5, 6, 9, 10]) == 3
+    assert dropped([0, 1.2, 2, 2.9, 4.1]) == 0  # jitter is no loss
+    assert dropped([0, 1, 1, 2, 3]) == 0
+    assert dropped([0, 0, 0]) == dropped([0]) == 0
+    assert dropped([0, 1, 2, 4], has_stamps=False) == 0
 
 
 def test_gaps_rate_and_equal_stamps():

@@ -35,7 +35,7 @@ def test_the_object_holds_the_table_and_the_papers(table, contestants):
 
 def test_the_text_says_the_same(table, contestants):
     text = sweep_as_text(table, contestants)
-    assert "4 demonstrations of 6.6 s" in text
+    assert f"4 demonstrations of {table.taught.duration:.1f} s" in text
     assert f"{table.rows[-1].quality.floor_ratio:.4f}" in text
     assert "rbf: 20 neurons: the smallest of the 2 counts tried" in text
     assert "rbf, 20 neurons, alone: the block falls" in text
