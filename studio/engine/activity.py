@@ -5,15 +5,17 @@ its last one. All but `Follow` leave no trace on disk.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
-import numpy as np
-
+from studio.engine.arms import Arms
 from studio.engine.demonstration import Demonstration
 from studio.engine.errors import FileError
 from studio.engine.follow import follow_steps
+from studio.engine.hands import PLAIN, HandTrack
 from studio.engine.mcap_file import RecordingWriter
+from studio.engine.moment import demonstration_at
 from studio.engine.performance import (
     SETTLE,
     Performance,
@@ -21,16 +23,18 @@ from studio.engine.performance import (
     Trajectory,
     perform_steps,
     start_world,
-    whole_body,
 )
 from studio.engine.pipeline import Pipeline
 from studio.engine.recording import Recording, RecordingInfo, Sample
 from studio.engine.retarget import Mapping
-from studio.engine.robot import CONTROL_PERIOD
-from studio.engine.skeleton import FloatArray, Side, Skeleton
-from studio.engine.sources import SkeletonRecording
+from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
+from studio.engine.skeleton import FloatArray, Skeleton
+from studio.engine.snapshot import Mode
+from studio.engine.teachers import Teacher
 from studio.engine.teaching import Lesson
 from studio.engine.world import World
+
+LONGEST_RECORDING = 15 * 60  # [s] of a live stream, which ends by itself never; 100 MB in memory
 
 
 class Activity(Protocol):
@@ -39,6 +43,16 @@ class Activity(Protocol):
     world: World
     time: float  # [s] since it began
     duration: float  # [s] that it takes, 0 for no end
+
+    @property
+    def guarded(self) -> str:
+        """What the collision guard keeps apart at this moment, in words."""
+        ...
+
+    @property
+    def mode(self) -> Mode:
+        """What to call it."""
+        ...
 
     def step(self) -> bool:
         """Do one tick; return whether another one follows."""
@@ -52,7 +66,7 @@ class Activity(Protocol):
 class Hold:
     """Hold still where a world has been left."""
 
-    duration = 0.0
+    duration, mode, guarded = 0.0, Mode.IDLE, ""
 
     def __init__(self, world: World) -> None:
         self.world = world
@@ -69,26 +83,32 @@ class Hold:
 
 
 class Follow:
-    """Let the robot follow a source, recording it if a path is given."""
+    """Let the robot follow a teacher, recording it if a path is given."""
 
-    def __init__(self, stream: SkeletonRecording, pipeline: Pipeline, path: Path | None) -> None:
-        self.time, self.duration = 0.0, stream.seconds
-        self.info = RecordingInfo.of(pipeline, stream)
-        self.samples: list[Sample] = []
+    def __init__(self, teacher: Teacher, pipeline: Pipeline, path: Path | None) -> None:
+        self.teacher = teacher
+        self.time, self.duration = 0.0, teacher.seconds
+        self.info = RecordingInfo.of(pipeline, teacher)
+        self.samples: list[Sample] = []  # what is recorded
+        self.newest: Sample | None = None
         self.skeleton: Skeleton | None = None  # the newest one
         self.writer = None if path is None else RecordingWriter(path, self.info)
-        self.world = start_world(pipeline.side, pipeline.mapping)
-        self._steps: Iterator[Sample] = follow_steps(stream, pipeline, self.world)
+        self.world = start_world(pipeline.arms, pipeline.mapping, pipeline.hands.options)
+        self._steps: Iterator[Sample] = follow_steps(
+            teacher.frames(), pipeline, self.world, teacher.command_given
+        )
 
     def step(self) -> bool:
         """Do one tick and write it down at once, so that a crash loses less than a second."""
-        sample = next(self._steps, None)
+        sample = None if self.is_full else next(self._steps, None)
         if sample is None:
             return False
-        self.time = sample.time
-        self.samples.append(sample)
+        self.time, self.newest = sample.time, sample
         self.skeleton = sample.skeleton or self.skeleton
         if self.writer is not None:
+            if len(self.samples) % CONTROL_RATE == CONTROL_RATE - 1:  # once a second
+                sample = replace(sample, latency=self.teacher.latency())
+            self.samples.append(sample)
             self.writer.write(sample)
         return True
 
@@ -96,6 +116,23 @@ class Follow:
         """Finish the recording's file."""
         if self.writer is not None:
             self.writer.close()
+
+    @property
+    def guarded(self) -> str:
+        """What the guard keeps apart."""
+        return "" if self.newest is None else self.newest.guarded
+
+    @property
+    def is_full(self) -> bool:
+        """Whether a recording without an end of its own has come to the longest that is kept."""
+        return self.duration == 0.0 and len(self.samples) >= LONGEST_RECORDING * CONTROL_RATE
+
+    @property
+    def mode(self) -> Mode:
+        """What to call it."""
+        if self.writer is not None:
+            return Mode.RECORDING
+        return Mode.ARMED if self.newest is not None and self.newest.gate.armed else Mode.WATCHING
 
     @property
     def recording(self) -> Recording:
@@ -106,23 +143,30 @@ class Follow:
 class Perform:
     """Let the robot perform a trajectory alone; see `lesson_alone` and `replay`."""
 
+    mode = Mode.PLAYING
+
     def __init__(
-        self, trajectory: Trajectory, duration: float, side: Side, mapping: Mapping
+        self,
+        trajectory: Trajectory,
+        duration: float,
+        arms: Arms,
+        mapping: Mapping,
+        hands: HandTrack | None = None,
     ) -> None:
         self.time, self.duration = 0.0, duration + SETTLE
-        self.world = start_world(side, mapping)
+        self.world = start_world(arms, mapping, PLAIN if hands is None else hands.options)
         self.lesson: Lesson | None = None  # what is performed, if it was learned
         self._ghost: Demonstration | None = None
-        self._motion, self._side, self._mapping = duration, side, mapping
-        self._start = self.world.state.joint_positions
+        self._motion, self._arms, self._mapping = duration, arms, mapping
+        self._ready = self.world.state.joint_positions
         self._ticks: list[Tick] = []
-        self._steps = perform_steps(self.world, trajectory, duration, side, mapping)
+        self._steps = perform_steps(self.world, trajectory, duration, arms, mapping, hands)
 
     @classmethod
     def lesson_alone(cls, lesson: Lesson, ghost: Demonstration | None) -> "Perform":
         """Return the performance of what was learned, beside the ghost of a demonstration."""
         taught = lesson.taught
-        alone = cls(lesson.trajectory(), taught.duration, taught.side, taught.mapping)
+        alone = cls(lesson.trajectory(), taught.duration, taught.arms, taught.mapping, taught.hands)
         alone.lesson, alone._ghost = lesson, ghost
         return alone
 
@@ -130,14 +174,14 @@ class Perform:
     def replay(cls, demonstration: Demonstration) -> "Perform":
         """Return the replay of a demonstration."""
         shown = demonstration
-        return cls(shown.trajectory(), shown.duration, shown.side, shown.mapping)
+        return cls(shown.trajectory(), shown.duration, shown.arms, shown.mapping, shown.hands)
 
     def step(self) -> bool:
         """Do one tick."""
         tick = next(self._steps, None)
         if tick is None:
             return False
-        self.time = tick.time
+        self.time = max(tick.time, 0.0)  # below 0 it is on its way to where the motion begins
         self._ticks.append(tick)
         return True
 
@@ -145,19 +189,27 @@ class Perform:
         """Nothing to keep."""
 
     @property
+    def guarded(self) -> str:
+        """What the guard keeps apart."""
+        return self._ticks[-1].command.guarded if self._ticks else ""
+
+    @property
+    def guarded_ticks(self) -> int:
+        """How many ticks the guard has changed, those of the way to the beginning included."""
+        return sum(1 for tick in self._ticks if tick.command.guarded)
+
+    @property
     def ghost(self) -> FloatArray | None:
         """The ghost's joints (15,) [rad], at the same share of its own duration."""
         if self._ghost is None:
             return None
         share = min(self.time / self._motion, 1.0)
-        row = self._ghost.at(np.array([share * self._ghost.duration]))
-        body: FloatArray = whole_body(row, self._ghost.side, self._ghost.joints)[0]
-        return body
+        return demonstration_at(self._ghost, share * self._ghost.duration).joints
 
     @property
     def performance(self) -> Performance:
         """The whole performance, once it has come to its end."""
-        return Performance(self._side, self._mapping, self._motion, self._start, tuple(self._ticks))
+        return Performance.of(self._arms, self._mapping, self._motion, self._ready, self._ticks)
 
 
 def next_recording_path(folder: Path) -> Path:

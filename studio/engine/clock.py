@@ -8,14 +8,25 @@ from studio.engine.errors import StudioError
 from studio.engine.robot import CONTROL_PERIOD
 from studio.engine.session import Session
 
+now = time.monotonic  # [s], for whoever is given a clock
 BADLY_LATE = 5 * CONTROL_PERIOD  # [s]; behind by more, the loop skips ahead instead of racing
+
+
+def wait_until(due: float, stopping: threading.Event) -> bool:
+    """Wait until ``due`` [s] by `now`; return whether to go on, False where ``stopping`` is set.
+
+    Whoever plans the next moment from the last one planned, not from when it woke, does not drift.
+    """
+    return not stopping.wait(max(0.0, due - now()))
 
 
 class LiveLoop:
     """Ticks a session at 30 Hz on a thread of its own, which alone builds and owns it.
 
-    Drift-free: each tick is due one period after the last one was *due*. ``skipped`` counts the
-    ticks that were given up because the machine was badly late. ``speed`` makes the session's time
+    Drift-free: each tick is due one period after the last one was *due*. A live frame that the
+    session awaits brings its tick forward, within its own period, so that frames hardly wait and
+    ticks are still 30 a second. ``skipped`` counts the ticks that were given up because the machine
+    was badly late. ``speed`` makes the session's time
     pass faster than the clock's. A context manager.
     """
 
@@ -45,6 +56,7 @@ class LiveLoop:
         self._thread.start()
         self._ready.wait()
         if self._failure is not None:
+            self._thread.join()
             raise self._failure
         return self
 
@@ -62,17 +74,26 @@ class LiveLoop:
                 self._built.close()
         except BaseException as failure:
             self._failure = failure
-            raise
+            if self._ready.is_set():  # else whoever starts the loop raises it
+                raise
         finally:
             self._ready.set()
 
     def _tick_until_stopped(self, session: Session) -> None:
-        due = time.monotonic()
-        while not self._stopping.wait(max(0.0, due - time.monotonic())):
+        due = now()
+        while self._wait_for_tick(session, due):
             session.tick()
             due += self._period
-            late = time.monotonic() - due
+            late = now() - due
             if late > BADLY_LATE:
                 missed = int(late / self._period)
                 self.skipped += missed
                 due += missed * self._period
+
+    def _wait_for_tick(self, session: Session, due: float) -> bool:
+        """Wait until a tick is due, or a frame has come within the period before that."""
+        awaited = session.awaited
+        if awaited is not None and wait_until(due - self._period, self._stopping):
+            awaited.wait(max(0.0, due - now()))
+            due = now()
+        return wait_until(due, self._stopping)

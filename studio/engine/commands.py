@@ -3,9 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from studio.engine.gate import GateMode
-from studio.engine.retarget import Mapping
-from studio.engine.skeleton import Side
+from studio.engine.choices import Choices
 from studio.engine.teaching import LearnerSettings
 
 
@@ -28,12 +26,25 @@ class UseFile:
 
 
 @dataclass(frozen=True)
-class Configure:
-    """Choose arm, mapping and gate for what is taught from now on."""
+class UseLive:
+    """Take whoever sends a live stream as the source."""
 
-    side: Side
-    mapping: Mapping
-    gate: GateMode
+
+@dataclass(frozen=True)
+class Configure:
+    """Choose how Baxter is taught from now on; the calibration stays as it is."""
+
+    choices: Choices
+
+
+@dataclass(frozen=True)
+class Calibrate:
+    """Watch the source for two seconds of the neutral pose; the robot holds still."""
+
+
+@dataclass(frozen=True)
+class ForgetCalibration:
+    """Trust the sensor's spine line again."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +96,10 @@ class Stop:
 Command = (
     UseDemonstrator
     | UseFile
+    | UseLive
     | Configure
+    | Calibrate
+    | ForgetCalibration
     | Watch
     | Record
     | Remove

@@ -11,10 +11,13 @@ from typing import Literal
 
 import numpy as np
 
+from studio.engine.arms import Arms, in_words, learned_columns, learned_joints
+from studio.engine.engage import ARRIVED_WITHIN
 from studio.engine.errors import NothingTaughtError, StudioError
-from studio.engine.recording import Recording
-from studio.engine.retarget import DRIVEN_JOINTS, LEARNED_JOINTS, Mapping
-from studio.engine.skeleton import FloatArray, Side
+from studio.engine.hands import PLAIN, HandOptions, HandTrack
+from studio.engine.recording import Recording, Sample
+from studio.engine.retarget import DRIVEN_JOINTS, Mapping
+from studio.engine.skeleton import FloatArray
 
 SAMPLES = 142  # in each demonstration, the paper's Section IV-A
 SHORTEST = 1.0  # [s]; a shorter armed stretch is a slip and no demonstration
@@ -26,17 +29,18 @@ class Demonstration:
     """One armed stretch: the commands that were *sent*, as the robot's own record of the motion."""
 
     name: str
-    side: Side
+    arms: Arms
     mapping: Mapping
-    times: FloatArray  # (T,) [s] from the moment of arming, rising
+    times: FloatArray  # (T,) [s] from the moment when the robot had come to the person, rising
     sent: FloatArray  # (T, D) [rad], columns as in `joints`
     first_sample: int  # in its recording
     last_sample: int
+    hands: HandTrack | None = None  # what wrists and grippers did meanwhile, if they did anything
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """The columns' joints: s0, s1, e0, e1, or the paper's s0, s1, e1."""
-        return LEARNED_JOINTS[self.mapping]
+        """The columns' joints, by Baxter's own names: ``left_s0``."""
+        return learned_joints(self.arms, self.mapping)
 
     @property
     def duration(self) -> float:
@@ -66,22 +70,49 @@ def armed_stretches(recording: Recording) -> list[tuple[int, int]]:
 def demonstrations_of(recording: Recording, name: str) -> list[Demonstration]:
     """Return a demonstration for every armed stretch of at least `SHORTEST` seconds.
 
-    One in which the arm was never seen is none: nothing moved in it.
+    It begins when the robot has come to where the person is, of two arms with the first: the way
+    there depends on where the robot happened to wait, is as long as that is far, and is nothing
+    that the person showed. A robot that plays the demonstration comes to its beginning by itself,
+    and as softly. A stretch in which no arm was seen is none: nothing moved in it.
     """
     info = recording.info
-    columns = [DRIVEN_JOINTS.index(joint) for joint in LEARNED_JOINTS[info.mapping]]
+    columns = learned_columns(info.arms, info.mapping)
     found: list[Demonstration] = []
     for first, last in armed_stretches(recording):
-        stretch = recording.samples[first : last + 1]
+        arrived = _arrival(recording, first, last)
+        if arrived is None:
+            continue
+        stretch = recording.samples[arrived : last + 1]
         times = np.array([sample.time for sample in stretch])
-        followed = any(sample.wanted is not None for sample in stretch)
-        if followed and times[-1] - times[0] >= SHORTEST:
+        if times[-1] - times[0] >= SHORTEST:
             sent = np.array([sample.sent[columns] for sample in stretch])
             label = name if not found else f"{name} ({len(found) + 1})"
+            times -= times[0]
+            hands = _hands(info.hands, times, stretch)
             found.append(
-                Demonstration(label, info.side, info.mapping, times - times[0], sent, first, last)
+                Demonstration(label, info.arms, info.mapping, times, sent, arrived, last, hands)
             )
     return found
+
+
+def _hands(options: HandOptions, times: FloatArray, stretch: Sequence[Sample]) -> HandTrack | None:
+    if options == PLAIN:
+        return None
+    return HandTrack.of(options, times, [sample.hands for sample in stretch])
+
+
+def _arrival(recording: Recording, first: int, last: int) -> int | None:
+    """Return the sample of an armed stretch in which an arm first is where the person is.
+
+    If none ever gets there, the first in which there is somebody to follow; None without one.
+    """
+    seen = [i for i in range(first, last + 1) if recording.samples[i].wanted is not None]
+    for index in seen:
+        sample = recording.samples[index]
+        behind = np.abs(np.array(sample.wanted) - sample.sent).reshape(-1, len(DRIVEN_JOINTS))
+        if behind.max(axis=1).min() < ARRIVED_WITHIN:
+            return index
+    return seen[0] if seen else None
 
 
 def resample(
@@ -105,7 +136,7 @@ def resample(
 
 @dataclass(frozen=True, eq=False)
 class DemonstrationSet:
-    """Demonstrations of one motion by one arm, aligned: what a learner is trained on."""
+    """Demonstrations of one motion by the same arms, aligned: what a learner is trained on."""
 
     demonstrations: tuple[Demonstration, ...]
     rows: FloatArray  # (K, 142, D) [rad]
@@ -130,10 +161,10 @@ class DemonstrationSet:
             raise NothingTaughtError("there is no demonstration to learn from")
         first = demonstrations[0]
         for other in demonstrations[1:]:
-            if (other.side, other.mapping) != (first.side, first.mapping):
+            if (other.arms, other.mapping) != (first.arms, first.mapping):
                 raise StudioError(
-                    f"{other.name} was taught with the {other.side} arm and the {other.mapping} "
-                    f"mapping, {first.name} with the {first.side} arm and the {first.mapping} "
+                    f"{other.name} was taught with {in_words(other.arms)} and the {other.mapping} "
+                    f"mapping, {first.name} with {in_words(first.arms)} and the {first.mapping} "
                     "mapping: learn from one kind at a time"
                 )
         rng = np.random.default_rng(seed)
@@ -141,9 +172,16 @@ class DemonstrationSet:
         return cls(tuple(demonstrations), rows)
 
     @property
-    def side(self) -> Side:
-        """The arm that was taught."""
-        return self.demonstrations[0].side
+    def arms(self) -> Arms:
+        """The arms that were taught."""
+        return self.demonstrations[0].arms
+
+    @property
+    def hands(self) -> HandTrack | None:
+        """What hands do in the reproduction: the mean of those demonstrations that drove them."""
+        tracks = [each.hands for each in self.demonstrations if each.hands is not None]
+        tracks = [each for each in tracks if each.options == tracks[0].options]
+        return HandTrack.mean(tracks, self.duration, SAMPLES) if tracks else None
 
     @property
     def mapping(self) -> Mapping:

@@ -6,6 +6,8 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
+from studio.engine.arms import Arms
+from studio.engine.calibration import calibrate_file
 from studio.engine.demonstration import (
     SHORTEST,
     Demonstration,
@@ -16,12 +18,12 @@ from studio.engine.demonstration import (
 from studio.engine.errors import NothingTaughtError
 from studio.engine.follow import follow, ticks_of
 from studio.engine.gate import NOBODY, GateMode
-from studio.engine.mcap_file import MCAP_FORMAT, is_mcap, read_recording
+from studio.engine.hands import PLAIN, HandOptions
+from studio.engine.mcap_file import MCAP_FORMAT, is_recording, read_recording
 from studio.engine.pipeline import Pipeline
-from studio.engine.recording import Recording
+from studio.engine.recording import Recording, RecordingInfo
 from studio.engine.retarget import Mapping
 from studio.engine.robot import load_robot
-from studio.engine.skeleton import Side
 from studio.engine.sources import SkeletonRecording, read_skeletons
 from studio.engine.teaching import (
     LearnerSettings,
@@ -38,12 +40,15 @@ from studio.engine.teaching import (
 class Setup:
     """What the user chose."""
 
-    side: Side = "left"
+    arms: Arms = "left"
     mapping: Mapping = "exact"
     gate: GateMode = "sequence"
     learner: LearnerSettings = LearnerSettings()
     interpolation: Interpolation = "even"
     seed: int = 0  # of the random interpolation
+    mirrored: bool = False
+    calibrate_at: float | None = None  # [s] into each file, where the neutral pose begins
+    hands: HandOptions = PLAIN
 
 
 @dataclass(frozen=True)
@@ -140,26 +145,43 @@ def teach(
 def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, FileOutcome]:
     """Return what was sent: as it was recorded, or by following the skeletons now.
 
-    A recording that was made with another arm, mapping or gate is followed anew, from its raw
-    skeletons.
+    A recording that was made in another way (arms, mirroring, mapping, gate, calibration) is
+    followed anew, from its raw skeletons; its own calibration then holds unless one is asked for.
     """
-    warning = ""
+    warning, calibration = "", None
     if isinstance(given, SkeletonRecording):
         stream = given
-    elif not is_mcap(given):
+    elif not is_recording(given):
         stream = read_skeletons(given)
     else:
         recording = read_recording(given)
         info = recording.info
-        if (info.side, info.mapping, info.gate) == (setup.side, setup.mapping, setup.gate):
+        if _made_so(info, setup):
             ticks = list(range(len(recording.samples)))
             return recording, _outcome(str(given), MCAP_FORMAT, ticks, recording)
-        warning = recording.warning
+        warning, calibration = recording.warning, info.calibration
         stream = recording.skeletons(str(given), f"{MCAP_FORMAT}, its skeletons followed anew")
-    pipeline = Pipeline.for_robot(load_robot(), setup.side, setup.mapping, setup.gate)
+    if setup.calibrate_at is not None:
+        calibration = calibrate_file(stream, setup.calibrate_at)
+    pipeline = Pipeline.for_robot(
+        load_robot(),
+        setup.arms,
+        setup.mapping,
+        setup.gate,
+        setup.mirrored,
+        calibration,
+        setup.hands,
+    )
     followed = replace(follow(stream, pipeline), warning=warning)
     outcome = _outcome(stream.path, stream.format, ticks_of(stream.frame_times).tolist(), followed)
     return followed, replace(outcome, has_hand_states=stream.has_hand_states)
+
+
+def _made_so(info: RecordingInfo, setup: Setup) -> bool:
+    """Tell whether a recording was made the way that is asked for now."""
+    made = (info.arms, info.mapping, info.gate, info.mirrored, info.hands)
+    asked = (setup.arms, setup.mapping, setup.gate, setup.mirrored, setup.hands)
+    return made == asked and setup.calibrate_at is None
 
 
 def _outcome(path: str, name: str, ticks: Sequence[int], recording: Recording) -> FileOutcome:

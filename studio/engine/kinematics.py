@@ -1,13 +1,14 @@
-"""Where every link is for given joint angles: forward kinematics of a tree of revolute joints.
+"""Where every link is for given joint angles: forward kinematics of a tree of joints.
 
 A joint's transform is affine in the sine and cosine of its angle (Rodrigues' formula),
 
     T(q) = T_parent_joint · rotation(axis, q) = constant + sine · sin q + cosine · cos q,
 
 so the transforms of all joints come from three tables at once, and the links from products of them.
+A joint that slides has a fourth, slide · q; only fingers do.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -31,6 +32,7 @@ class Kinematics:
     sine: FloatArray  # (J, 4, 4), zero for a fixed joint
     cosine: FloatArray  # (J, 4, 4), zero for a fixed joint
     angle_count: int
+    slide: FloatArray | None = None  # (J, 4, 4), zero for a joint that turns; None if all turn
 
     @classmethod
     def of(cls, root: str, joints: Sequence[UrdfJoint], names: Sequence[str]) -> "Kinematics":
@@ -48,6 +50,7 @@ class Kinematics:
             sine=tables[:, 1],
             cosine=tables[:, 2],
             angle_count=len(names),
+            slide=tables[:, 3] if any(joint.slides for joint in ordered) else None,
         )
 
     def forward(self, link: str, angles: ArrayLike) -> FloatArray:
@@ -76,10 +79,36 @@ class Kinematics:
             poses[child] = carried[-1]
         return poses
 
+    def stacked(self, angles: ArrayLike) -> FloatArray:
+        """Return T_root_link (..., 1 + J, 4, 4) of the root and of `children`, in their order."""
+        values = self._checked(angles)
+        poses = np.empty((*values.shape[:-1], 1 + len(self.children), 4, 4))
+        poses[..., 0, :, :] = np.eye(4)
+        self.restack(poses, values, list(range(len(self.children))))
+        return poses
+
+    def restack(self, poses: FloatArray, angles: FloatArray, joints: list[int]) -> None:
+        """Bring the links that ``joints`` (rising) carry up to date in ``poses``, see `stacked`."""
+        steps = self._transforms(angles, joints)
+        for step, joint in enumerate(joints):
+            carrier = poses[..., 1 + self.parents[self.children[joint]], :, :]
+            np.matmul(carrier, steps[..., step, :, :], out=poses[..., 1 + joint, :, :])
+
+    def below(self, moved: Collection[int]) -> list[int]:
+        """Return the joints (rising) whose links the angles in the columns ``moved`` move."""
+        found: list[int] = []
+        for joint, child in enumerate(self.children):
+            turns = self.columns[joint] in moved and bool(self.sine[joint].any())
+            if turns or self.parents[child] in found:
+                found.append(joint)
+        return found
+
     def _transforms(self, angles: FloatArray, joints: list[int]) -> FloatArray:
         """Return T_parent_child (..., len(joints), 4, 4) of these joints."""
         turned = angles[..., [self.columns[joint] for joint in joints], None, None]
         swing = self.sine[joints] * np.sin(turned) + self.cosine[joints] * np.cos(turned)
+        if self.slide is not None:
+            swing = swing + self.slide[joints] * turned
         transforms: FloatArray = self.constant[joints] + swing
         return transforms
 
@@ -112,11 +141,15 @@ def _from_the_root(root: str, joints: Sequence[UrdfJoint]) -> list[UrdfJoint]:
     return ordered
 
 
-def _coefficients(joint: UrdfJoint) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the constant, sine and cosine parts (4, 4) of a joint's transform."""
+def _coefficients(joint: UrdfJoint) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return the constant, sine, cosine and slide parts (4, 4) of a joint's transform."""
     T, zero = joint.T_parent_joint, np.zeros((4, 4))
     if not joint.movable:
-        return T, zero, zero
+        return T, zero, zero, zero
+    if joint.slides:
+        way = np.zeros((4, 4))
+        way[:3, 3] = T[:3, :3] @ joint.axis
+        return T, zero, zero, way
     x, y, z = joint.axis
     along = np.outer(joint.axis, joint.axis)  # what the turn leaves alone
     crossed = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
@@ -125,4 +158,4 @@ def _coefficients(joint: UrdfJoint) -> tuple[FloatArray, FloatArray, FloatArray]
         part = np.zeros((4, 4))
         part[:3, :3], part[3, 3] = turned, corner
         parts.append(T @ part)
-    return parts[0], parts[1], parts[2]
+    return parts[0], parts[1], parts[2], zero

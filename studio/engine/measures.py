@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.distance import cdist
 
+from studio.engine.arms import sides_of
+from studio.engine.hands import HandTrack
 from studio.engine.performance import Performance, joint_columns, whole_body
 from studio.engine.robot import load_robot
 from studio.engine.skeleton import FloatArray, Side
@@ -20,23 +22,33 @@ class Deviation:
     hand_dtw: float  # [m] mean distance along the best warping of time
 
 
-def deviation(performance: Performance, rows: FloatArray, joints: tuple[str, ...]) -> Deviation:
+def deviation(
+    performance: Performance,
+    rows: FloatArray,
+    joints: tuple[str, ...],
+    hands: HandTrack | None = None,
+) -> Deviation:
     """Compare what was measured with ``rows`` (T, D) [rad], at the T stamps over the duration.
 
-    The hand is the origin of the link ``left_hand`` or ``right_hand``.
+    The hand is the origin of the link ``left_hand`` or ``right_hand``; of both arms, both hands
+    count alike. Wrists are meant to be where ``hands`` have them, without that at zero.
     """
-    side = performance.side
     stamps = np.linspace(0.0, performance.duration, len(rows))
     measured = performance.measured_at(stamps)
-    error = measured[:, joint_columns(side, joints)] - rows
-    reached = hand_path(measured, side)
-    intended = hand_path(whole_body(rows, side, joints), side)
-    distance = np.linalg.norm(reached - intended, axis=1)
+    error = measured[:, joint_columns(joints)] - rows
+    meant = whole_body(rows, joints)
+    if hands is not None:
+        wrists = joint_columns(hands.options.wrist_joints(performance.arms))
+        meant[:, wrists] = [hands.at(stamp).wrist for stamp in stamps]
+    paths = [
+        (hand_path(measured, side), hand_path(meant, side)) for side in sides_of(performance.arms)
+    ]
+    distance = np.array([np.linalg.norm(reached - intended, axis=1) for reached, intended in paths])
     return Deviation(
         joint_rmse=np.sqrt(np.mean(error**2, axis=0)),
         hand_mean=float(distance.mean()),
         hand_max=float(distance.max()),
-        hand_dtw=dtw_distance(reached, intended),
+        hand_dtw=float(np.mean([dtw_distance(*pair) for pair in paths])),
     )
 
 

@@ -2,21 +2,23 @@
 
 import difflib
 import logging
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from studio.engine.errors import StudioError
+from studio.engine.fingers import FINGER_JOINTS, mount_fingers
 from studio.engine.kinematics import Kinematics
 from studio.engine.resources import resource_root
 from studio.engine.skeleton import SIDES, FloatArray, Side
-from studio.engine.urdf import Color, Link, Mesh, PlacedShape, Shape, parse_xml, read_urdf
+from studio.engine.urdf import Color, Link, Mesh, PlacedShape, Shape, parse_xml, urdf_of
 
 ARM_JOINTS = ("s0", "s1", "e0", "e1", "w0", "w1", "w2")  # from the shoulder to the hand
 JOINT_NAMES: tuple[str, ...] = (
@@ -54,7 +56,10 @@ class Visual:
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """Baxter. Arrays of joints are always in the order of `JOINT_NAMES`."""
+    """Baxter. Arrays of joints are always in the order of `JOINT_NAMES`.
+
+    A robot with fingers has 19 joints, not 15: `FINGER_JOINTS` follow, in m for rad.
+    """
 
     joint_names: tuple[str, ...]  # (15,)
     limits: JointLimits
@@ -88,6 +93,25 @@ class Robot:
             effort=all_of_them.effort[indices],
         )
 
+    def retargeted(self, before: FloatArray, targets: Mapping[str, float]) -> FloatArray:
+        """Return targets of all joints [rad] with some of them set anew.
+
+        Raises
+        ------
+        StudioError
+            For a joint that does not exist, and an angle not finite or outside the limits.
+        """
+        changed = before.copy()
+        for name, angle in targets.items():
+            index = self.joint_index(name)
+            lower, upper = self.limits.lower[index], self.limits.upper[index]
+            if not lower <= angle <= upper:  # nor is NaN
+                raise StudioError(
+                    f"{name} goes from {lower:.4f} to {upper:.4f} rad and cannot be told {angle!r}"
+                )
+            changed[index] = angle
+        return changed
+
     def forward_kinematics(self, link: str, joint_positions: ArrayLike) -> FloatArray:
         """Return T_base_link (..., 4, 4) for joint positions (..., 15) [rad].
 
@@ -114,7 +138,7 @@ def urdf_path() -> Path:
     return resource_root() / "urdf" / "baxter.urdf"
 
 
-def urdf_without_visuals() -> bytes:
+def urdf_without_visuals(fingers: bool = False) -> bytes:
     """Return the robot's description without its looks, for programs that need only the rest.
 
     Raises
@@ -122,27 +146,52 @@ def urdf_without_visuals() -> bytes:
     FileError
         Where the file cannot be used.
     """
-    tree = parse_xml(urdf_path())
+    tree = _description(fingers)
     for link in tree.findall("link"):
         for visual in link.findall("visual"):
             link.remove(visual)
     return ElementTree.tostring(tree)
 
 
+def urdf_with_meshes(fingers: bool = False) -> bytes:
+    """Return the robot's description with the paths of its meshes; without looks if there are none.
+
+    Raises
+    ------
+    FileError
+        Where the file cannot be used.
+    """
+    folder = description_folder()
+    if folder is None:
+        return urdf_without_visuals(fingers)
+    tree = _description(fingers)
+    for mesh in tree.iterfind("link/visual/geometry/mesh"):
+        mesh.set("filename", str(_mesh_path(folder, mesh.get("filename", ""))))
+    return ElementTree.tostring(tree)
+
+
 @cache
-def load_robot() -> Robot:
+def load_robot(fingers: bool = False) -> Robot:
     """Return Baxter, read once from `urdf_path`; raise FileError where that file is broken."""
-    urdf = read_urdf(urdf_path())
+    urdf = urdf_of(_description(fingers), urdf_path())
     by_name = {joint.name: joint for joint in urdf.joints}
-    table = np.array([by_name[name].limits for name in JOINT_NAMES])
+    names = (*JOINT_NAMES, *FINGER_JOINTS) if fingers else JOINT_NAMES
+    table = np.array([by_name[name].limits for name in names])
     table.setflags(write=False)
     root = urdf.links[0].name
     return Robot(
-        joint_names=JOINT_NAMES,
+        joint_names=names,
         limits=JointLimits(*table.T),
         links=urdf.links,
-        kinematics=Kinematics.of(root, urdf.joints, JOINT_NAMES),
+        kinematics=Kinematics.of(root, urdf.joints, names),
     )
+
+
+def _description(fingers: bool) -> Element:
+    tree = parse_xml(urdf_path())
+    if fingers:
+        mount_fingers(tree)
+    return tree
 
 
 @cache
@@ -177,6 +226,11 @@ def _resolved(placed: PlacedShape) -> PlacedShape | None:
     folder = description_folder()
     if folder is None:
         return None
-    share = folder.parents[2]  # holds example-robot-data/robots/baxter_description
-    path = share / _MESH_WHEEL / placed.shape.file.removeprefix(_PACKAGE)
+    path = _mesh_path(folder, placed.shape.file)
     return replace(placed, shape=Mesh(str(path))) if path.is_file() else None
+
+
+def _mesh_path(folder: Path, file: str) -> Path:
+    """Return where a mesh is that the description names by its package."""
+    share = folder.parents[2]  # holds example-robot-data/robots/baxter_description
+    return share / _MESH_WHEEL / file.removeprefix(_PACKAGE)

@@ -7,9 +7,9 @@ import math
 from dataclasses import dataclass, field, replace
 from functools import cache
 
+from studio.engine.arms import ARMS, Arms
 from studio.engine.errors import FileError, StudioError
 from studio.engine.resources import resource_root
-from studio.engine.skeleton import Side
 from studio.engine.urdf import Box, read_urdf
 
 Triple = tuple[float, float, float]
@@ -76,7 +76,7 @@ def default_blocks() -> tuple[Block, ...]:
 
 @dataclass(frozen=True)
 class Scene:
-    """A desk and blocks, told for the left arm and mirrored (`placed_...`) if the right is taught.
+    """A desk and blocks, told for the left arm; mirrored (`placed_...`) for the right alone.
 
     Raises
     ------
@@ -86,13 +86,13 @@ class Scene:
 
     desk: Desk = field(default_factory=default_desk)
     blocks: tuple[Block, ...] = field(default_factory=default_blocks)  # the first is the task's
-    arm: Side = "left"  # the one that is taught
+    arms: Arms = "left"  # those that are taught
 
     def __post_init__(self) -> None:
         if not self.blocks:
             raise StudioError("a scene needs at least one block, the one to push down")
-        if self.arm not in ("left", "right"):
-            raise StudioError(f"the taught arm is left or right, not {self.arm!r}")
+        if self.arms not in ARMS:
+            raise StudioError(f"taught are the left arm, the right or both, not {self.arms!r}")
 
     @property
     def placed_desk(self) -> Desk:
@@ -106,7 +106,7 @@ class Scene:
 
     def _placed(self, position: Triple) -> Triple:
         x, y, z = position
-        return position if self.arm == "left" else (x, -y, z)
+        return (x, -y, z) if self.arms == "right" else position
 
 
 def _box(name: str) -> tuple[Triple, float, float]:

@@ -3,10 +3,12 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from studio.engine.choices import Choices
 from studio.engine.demonstration import Demonstration
-from studio.engine.gate import GateMode, GateStatus
-from studio.engine.retarget import Mapping
-from studio.engine.skeleton import FloatArray, Side, Skeleton
+from studio.engine.gate import GateStatus
+from studio.engine.live.status import LiveStatus
+from studio.engine.pipeline import Lag
+from studio.engine.skeleton import FloatArray, Skeleton
 from studio.engine.sources import SkeletonRecording
 from studio.engine.teaching import Lesson, Reproduction
 from studio.engine.world import WorldState
@@ -20,6 +22,7 @@ class Mode(StrEnum):
     ARMED = "armed"  # the robot follows
     RECORDING = "recording"
     PLAYING = "playing"
+    CALIBRATING = "calibrating"
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,7 @@ class SourceStatus:
     frames: int
     seconds: float
     has_hand_states: bool
+    is_live: bool = False
 
     @classmethod
     def of(cls, stream: SkeletonRecording) -> "SourceStatus":
@@ -54,6 +58,14 @@ class Message:
     is_error: bool = False
 
 
+@dataclass(frozen=True)
+class Progress:
+    """How far a calibration has come."""
+
+    share: float  # of the time for which the pose has to be held, 0 to 1
+    words: str  # what the person should do
+
+
 @dataclass(frozen=True, eq=False)
 class Snapshot:
     """Everything that a panel may draw."""
@@ -62,13 +74,17 @@ class Snapshot:
     message: Message
     time: float  # [s] since the present activity began
     duration: float  # [s] that it will take, 0 for none
-    side: Side
-    mapping: Mapping
-    gate_mode: GateMode
+    choices: Choices
+    calibrated_with: str  # the source that the choices' calibration was taken from
+    calibrating: Progress | None  # None while nobody calibrates
     source: SourceStatus | None
+    live: LiveStatus | None  # the live streams that may be the source; None where none are taken
     skeleton: Skeleton | None  # the newest one; the source's first while nobody is watched
     gate: GateStatus | None  # None while nobody is watched
     held: str  # why the robot does not follow
+    guarded: str  # what the collision guard keeps apart at this moment, in words
+    guarded_ticks: int  # how many ticks it has changed of what is being played
+    lag: Lag  # by which what is sent is behind the person
     alone: bool  # it plays what it learned, not a demonstration
     world: WorldState
     entries: tuple[Entry, ...]

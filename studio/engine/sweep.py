@@ -181,8 +181,8 @@ def play(task: tuple[str, Settings, DemonstrationSet]) -> Played:
     name, settings, taught = task
     model = kind_of(name).model(settings).fit(*stacked(taught.rows))
     trajectory = model_as_trajectory(model, taught.duration)
-    performance = perform(trajectory, taught.duration, taught.side, taught.mapping)
-    error = deviation(performance, taught.mean, taught.joints)
+    performance = perform(trajectory, taught.duration, taught.arms, taught.mapping, taught.hands)
+    error = deviation(performance, taught.mean, taught.joints, taught.hands)
     return Played(performance, error, remark_of(model))
 
 

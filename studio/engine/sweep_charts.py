@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from studio.engine.arms import short_names, sides_of
 from studio.engine.demonstration import SAMPLES
 from studio.engine.measures import hand_path
 from studio.engine.paper import PAPER_JOINTS, paper_table
@@ -28,7 +29,7 @@ def error_charts(table: Sweep) -> str:
     if table.floor is None or not (table.floor > 0.0).all() or len(table.of(table.learners[0])) < 2:
         return ""
     charts = []
-    for place, joint in enumerate(table.taught.joints):
+    for place, joint in enumerate(short_names(table.taught.joints)):
         lines = [
             _styled(
                 style,
@@ -39,8 +40,8 @@ def error_charts(table: Sweep) -> str:
             )
             for style, learner in enumerate(table.learners)
         ]
-        if joint in PAPER_JOINTS:
-            lines.append(_paper_line(joint))
+        if (short := joint.rpartition("_")[2]) in PAPER_JOINTS:
+            lines.append(_paper_line(short))
         charts.append(Chart(joint, "neurons", "MSE / floor", tuple(lines), log=True).svg())
     keys = [(label_of(name), _key(style)) for style, name in enumerate(table.learners)]
     keys.append(("the paper, over its own last column", _paper_line(PAPER_JOINTS[0])))
@@ -59,7 +60,7 @@ def demonstration_charts(table: Sweep) -> str:
     ]
     charts = [
         Chart(joint, "sample", "angle [deg]", tuple(each)).svg()
-        for joint, each in zip(taught.joints, lines, strict=True)
+        for joint, each in zip(short_names(taught.joints), lines, strict=True)
     ]
     names = [each.name.rpartition("/")[2] for each in taught.demonstrations[:SHOWN]]
     return legend(list(zip(names, lines[0], strict=True))) + _figures(charts)
@@ -69,7 +70,7 @@ def output_charts(table: Sweep) -> str:
     """Return what the networks answer over all demonstrations: the paper's Fig. 10 (a) to (c)."""
     taught = table.taught
     charts = []
-    for place, joint in enumerate(taught.joints):
+    for place, joint in enumerate(short_names(taught.joints)):
         lines = [
             Line(INDEX_TIME, np.degrees(rows[:, place]), FAINT, width=FAINT_WIDTH)
             for rows in taught.rows
@@ -90,11 +91,14 @@ def output_charts(table: Sweep) -> str:
 def path_charts(table: Sweep) -> str:
     """Return the hand's measured path from three sides: the paper's Fig. 10 (d)."""
     taught = table.taught
-    intended = hand_path(whole_body(taught.mean, taught.side, taught.joints), taught.side)
+    sides = sides_of(taught.arms)
+    meant = whole_body(taught.mean, taught.joints)
+    intended = [hand_path(meant, side) for side in sides]
     stamps = np.linspace(0.0, taught.duration, SAMPLES)
     paths = [
-        hand_path(table.played[name].performance.measured_at(stamps), taught.side)
-        for name in table.learners
+        (style, hand_path(table.played[name].performance.measured_at(stamps), side))
+        for style, name in enumerate(table.learners)
+        for side in sides
     ]
     from_floor = np.array([0.0, 0.0, BASE_HEIGHT])
     charts = []
@@ -104,10 +108,10 @@ def path_charts(table: Sweep) -> str:
         ("from the front", 1, 2, ("left y [m]", "up z [m]")),
     ):
         axes = [across, up]
-        x, y = (intended + from_floor)[:, axes].T
-        lines = [Line(x, y, MEAN, MEAN_DASHES)]
-        lines += [_styled(i, *(path + from_floor)[:, axes].T) for i, path in enumerate(paths)]
-        boxes = _scene_boxes(Scene(arm=taught.side), across, up)
+        placed = [(path + from_floor)[:, axes].T for path in intended]
+        lines = [Line(x, y, MEAN, MEAN_DASHES) for x, y in placed]
+        lines += [_styled(style, *(path + from_floor)[:, axes].T) for style, path in paths]
+        boxes = _scene_boxes(Scene(arms=taught.arms), across, up)
         charts.append(Chart(title, *labels, tuple(lines), boxes, size=(388, 300), equal=True).svg())
     keys = [("mean demonstration, as sent", Line(INDEX_TIME, INDEX_TIME, MEAN, MEAN_DASHES))]
     keys += [(f"{label_of(name)}, as measured", _key(i)) for i, name in enumerate(table.learners)]

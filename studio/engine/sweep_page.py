@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from html import escape
 
 import studio
+from studio.engine.arms import in_words, short_names
 from studio.engine.comparison import Contestant
 from studio.engine.demonstration import SAMPLES
 from studio.engine.learners import BUDGET
@@ -58,8 +59,8 @@ def sweep_page(table: Sweep, contestants: Sequence[Contestant] = ()) -> str:
     parts = [
         "<h1>Table I, with your own demonstrations</h1>",
         f'<p class="lead">{count} demonstration{"s" if count > 1 else ""} of {taught.duration:.1f}'
-        f" s in the mean, {SAMPLES} × {len(taught.joints)} joint angles each, {taught.side} arm, "
-        f"{taught.mapping} mapping.</p>",
+        f" s in the mean, {SAMPLES} × {len(taught.joints)} joint angles each, "
+        f"{in_words(taught.arms)}, {taught.mapping} mapping.</p>",
         f"<ul>{''.join(f'<li>{line}</li>' for line in findings(table))}</ul>",
         f'<div class="tables"><div class="side">{_paper_table()}{_COLUMNS}</div>'
         f"{_own_table(table)}</div>",
@@ -148,7 +149,7 @@ def _paper_table() -> str:
 
 
 def _own_table(table: Sweep) -> str:
-    joints = table.taught.joints
+    joints = short_names(table.taught.joints)
     head = "".join(f"<th>{joint}</th>" for joint in joints)
     rows = []
     for name in table.learners:

@@ -125,8 +125,11 @@ def learn(taught: DemonstrationSet, settings: LearnerSettings) -> Lesson:
 def reproduce(lesson: Lesson) -> Reproduction:
     """Let the robot do alone what it learned, in a fresh world."""
     taught = lesson.taught
-    performance = perform(lesson.trajectory(), taught.duration, taught.side, taught.mapping)
-    return Reproduction(performance, deviation(performance, taught.mean, taught.joints))
+    performance = perform(
+        lesson.trajectory(), taught.duration, taught.arms, taught.mapping, taught.hands
+    )
+    error = deviation(performance, taught.mean, taught.joints, taught.hands)
+    return Reproduction(performance, error)
 
 
 def replay(demonstration: Demonstration, rows: FloatArray | None = None) -> Replay:
@@ -136,9 +139,10 @@ def replay(demonstration: Demonstration, rows: FloatArray | None = None) -> Repl
     robot's trajectory. ``rows`` (142, D) [rad] are its resampled rows, even ones by default.
     """
     rows = resample(demonstration) if rows is None else rows
-    side, mapping, duration = demonstration.side, demonstration.mapping, demonstration.duration
-    raw = perform(demonstration.trajectory(), duration, side, mapping)
-    resampled = perform(rows_as_trajectory(rows, duration), duration, side, mapping)
+    arms, mapping, duration = demonstration.arms, demonstration.mapping, demonstration.duration
+    hands = demonstration.hands
+    raw = perform(demonstration.trajectory(), duration, arms, mapping, hands)
+    resampled = perform(rows_as_trajectory(rows, duration), duration, arms, mapping, hands)
     measured = resampled.measured_at(np.linspace(0.0, duration, SAMPLES))
-    measured = measured[:, joint_columns(side, demonstration.joints)]
-    return Replay(resampled, deviation(raw, measured, demonstration.joints))
+    measured = measured[:, joint_columns(demonstration.joints)]
+    return Replay(resampled, deviation(raw, measured, demonstration.joints, hands))

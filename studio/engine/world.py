@@ -17,20 +17,24 @@ from collections.abc import Mapping
 from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
+from studio.engine.arms import sides_of
+from studio.engine.camera import Camera
 from studio.engine.errors import FileError, StudioError
 from studio.engine.robot import (
     BASE_HEIGHT,
     CONTROL_RATE,
+    JOINT_NAMES,
     load_robot,
     urdf_path,
+    urdf_with_meshes,
     urdf_without_visuals,
 )
 from studio.engine.scene import Block, Desk, Scene, Triple
 from studio.engine.servo import Servo
 from studio.engine.silence import STDERR, STDOUT, silenced
-from studio.engine.skeleton import SIDES, FloatArray
+from studio.engine.skeleton import SIDES
 from studio.engine.world_state import BlockWatch, WorldState
 
 with silenced(STDOUT), silenced(STDERR):
@@ -50,6 +54,11 @@ POSITION_GAIN = 0.05
 # that follows steadily is at its target when the tick ends: on the average over the tick it is
 # half a tick's way short, and the gain makes of that what is missing here to 1.
 FEED_FORWARD = 1.0 - POSITION_GAIN * SUBSTEPS / 2
+# Of pictures: the floor, which is left out as it costs a third of the time, the desk, the task's
+# block and others; each red, green, blue, alpha.
+COLORS = ((1, 1, 1, 0), (0.74, 0.63, 0.5, 1), (0.96, 0.7, 0.16, 1), (0.5, 0.59, 0.66, 1))
+LIGHT = {"lightDirection": (2.0, 1.0, 4.0), "lightAmbientCoeff": 0.7, "lightDiffuseCoeff": 0.5}
+RENDERER = {"renderer": pybullet.ER_TINY_RENDERER, "flags": pybullet.ER_NO_SEGMENTATION_MASK}
 
 
 class World:
@@ -58,9 +67,13 @@ class World:
     Parameters
     ----------
     scene
-        What stands around the robot, and which arm is taught.
+        What stands around the robot, and which arms are taught.
     joint_positions
         Where joints start and are held [rad]; those not named are at zero.
+    fingers
+        Whether the hands have fingers: more joints, in m, which keep to their effort limit too.
+    looks
+        Whether pictures can be taken of it; Baxter's meshes take 2 s to read.
 
     Raises
     ------
@@ -72,13 +85,17 @@ class World:
     """
 
     def __init__(
-        self, scene: Scene | None = None, joint_positions: Mapping[str, float] | None = None
+        self,
+        scene: Scene | None = None,
+        joint_positions: Mapping[str, float] | None = None,
+        fingers: bool = False,
+        looks: bool = False,
     ) -> None:
-        self.scene = Scene() if scene is None else scene
-        self._robot = load_robot()
+        self.scene, self._looks = Scene() if scene is None else scene, looks
+        self._robot = load_robot(fingers=True) if fingers else load_robot()
         self._owner = threading.get_ident()
-        self._targets = np.zeros(len(self._robot.joint_names))  # [rad]
-        self._targets = self._with(joint_positions or {})
+        at_zero = np.zeros(len(self._robot.joint_names))
+        self._targets = self._robot.retargeted(at_zero, joint_positions or {})  # [rad]
         self._servo = Servo(self._robot.limits.velocity)
         self._setpoint = self._servo.start(self._targets)
         self._watch, self._ticks = BlockWatch(), 0
@@ -109,7 +126,7 @@ class World:
             limits; then no target changes.
         """
         self._require_owner()
-        self._targets = self._with(targets)
+        self._targets = self._robot.retargeted(self._targets, targets)
 
     def step(self) -> WorldState:
         """Let one control tick of 1/30 s pass and return what it led to."""
@@ -132,6 +149,25 @@ class World:
         self._state = self._observe(touched)
         return self._state
 
+    def show(self, state: WorldState) -> None:
+        """Put joints and blocks where a state has them, without physics: for pictures of it."""
+        self._require_owner()
+        client = {"physicsClientId": self._client}
+        joints = [*state.joint_positions.tolist(), *state.fingers.tolist()]
+        for motor, angle in zip(self._motors, joints, strict=True):
+            pybullet.resetJointState(self._body, motor, angle, **client)
+        for block, pose in zip(self._blocks, state.block_poses.tolist(), strict=True):
+            pybullet.resetBasePositionAndOrientation(block, pose[:3], pose[3:], **client)
+
+    def picture(self, camera: Camera) -> NDArray[np.uint8]:
+        """Return what a camera sees (height, width, 3): red, green, blue."""
+        self._require_owner()
+        width, height = camera.size
+        found = pybullet.getCameraImage(
+            width, height, *camera.matrices, **LIGHT, **RENDERER, physicsClientId=self._client
+        )
+        return np.reshape(np.array(found[2], np.uint8), (height, width, 4))[:, :, :3]
+
     def close(self) -> None:
         """Free the world's memory; may be called twice."""
         if not self._closed:
@@ -151,20 +187,6 @@ class World:
         if threading.get_ident() != self._owner:
             raise StudioError("a world belongs to the thread that made it; call it from there")
 
-    def _with(self, targets: Mapping[str, float]) -> FloatArray:
-        """Return all targets (15,) [rad] with some of them set anew."""
-        changed = self._targets.copy()
-        limits = self._robot.limits
-        for name, angle in targets.items():
-            index = self._robot.joint_index(name)
-            lower, upper = limits.lower[index], limits.upper[index]
-            if not lower <= angle <= upper:  # nor is NaN
-                raise StudioError(
-                    f"{name} goes from {lower:.4f} to {upper:.4f} rad and cannot be told {angle!r}"
-                )
-            changed[index] = angle
-        return changed
-
     def _furnish(self) -> None:
         """Set up physics, the floor, the desk and the blocks."""
         client = {"physicsClientId": self._client}
@@ -179,6 +201,9 @@ class World:
             self._box(block.size, block.position, block.mass, block.friction)
             for block in self.scene.placed_blocks
         ]
+        for body in range(2 + len(self._blocks)) if self._looks else ():
+            color = COLORS[min(body, len(COLORS) - 1)]
+            pybullet.changeVisualShape(body, -1, rgbaColor=color, **client)
 
     def _box(self, size: Triple, position: Triple, mass: float, friction: float) -> int:
         client = {"physicsClientId": self._client}
@@ -194,7 +219,8 @@ class World:
     def _place_robot(self) -> None:
         """Load the robot and put its joints where they start."""
         client = {"physicsClientId": self._client}
-        self._body = _load_robot(self._client)
+        fingers = len(self._robot.joint_names) > len(JOINT_NAMES)
+        self._body = _load_robot(self._client, fingers, self._looks)
         found = [
             pybullet.getJointInfo(self._body, index, **client)
             for index in range(pybullet.getNumJoints(self._body, **client))
@@ -202,8 +228,8 @@ class World:
         motors = {info[1].decode(): info[0] for info in found}  # pybullet's order is its own
         self._motors = [motors[name] for name in self._robot.joint_names]
         self._s1 = [self._robot.joint_index(f"{side}_s1") for side in SIDES]
-        prefix = f"{self.scene.arm}_"
-        self._arm_links = {info[0] for info in found if info[12].decode().startswith(prefix)}
+        prefixes = tuple(f"{side}_" for side in sides_of(self.scene.arms))
+        self._arm_links = {info[0] for info in found if info[12].decode().startswith(prefixes)}
         # A last bound, which pybullet has for the whole robot only: its fastest joint's.
         arms = [name for side in SIDES for name in self._robot.arm_joints(side)]
         fastest = float(self._robot.limits_of(arms).velocity.max())
@@ -249,21 +275,14 @@ class World:
         velocity, spin = pybullet.getBaseVelocity(self._blocks[0], **client)
         speeds = math.hypot(*velocity), math.hypot(*spin)
         self._watch = self._watch.step(touched, poses[0], *speeds)
-        return WorldState(
-            time=self._ticks / CONTROL_RATE,
-            joint_positions=_frozen([joint[0] for joint in joints]),
-            joint_velocities=_frozen([joint[1] for joint in joints]),
-            block_poses=_frozen(poses),
-            touched=self._watch.touched,
-            tilt=self._watch.tilt,
-            block_down=self._watch.down,
-        )
+        moving = np.array([joint[:2] for joint in joints])
+        return WorldState.of(self._ticks / CONTROL_RATE, moving, poses, self._watch)
 
 
-def _load_robot(client: int) -> int:
-    """Load the robot without its looks, whose meshes pybullet would read for a second and more."""
+def _load_robot(client: int, fingers: bool = False, looks: bool = False) -> int:
+    """Load the robot, without its looks unless asked: pybullet reads meshes for 2 s."""
     with tempfile.NamedTemporaryFile(suffix=".urdf") as file, silenced(STDOUT):
-        file.write(urdf_without_visuals())
+        file.write(urdf_with_meshes(fingers) if looks else urdf_without_visuals(fingers))
         file.flush()
         try:
             body: int = pybullet.loadURDF(
@@ -276,9 +295,3 @@ def _load_robot(client: int) -> int:
         except pybullet.error as error:
             raise FileError(f"{urdf_path()}: pybullet cannot load it; reinstall") from error
     return body
-
-
-def _frozen(values: ArrayLike) -> FloatArray:
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array

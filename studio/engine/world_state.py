@@ -1,8 +1,12 @@
 """What is known of the world after a control tick, and when a block counts as pushed down."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from studio.engine.robot import JOINT_NAMES
 from studio.engine.skeleton import FloatArray
 
 DOWN_TILT = math.radians(60.0)  # [rad] a block that is down leans more than this
@@ -22,6 +26,25 @@ class WorldState:
     touched: bool  # the taught arm has touched the task's block
     tilt: float  # [rad] of the task's block from the upright
     block_down: bool  # touched, leaning more than DOWN_TILT, and at rest
+    # How far out the fingers of both hands are [m], as in fingers.FINGER_JOINTS; (0,) without them.
+    fingers: FloatArray = field(default_factory=lambda: np.empty(0))
+
+    @classmethod
+    def of(
+        cls, time: float, joints: FloatArray, block_poses: FloatArray, watch: "BlockWatch"
+    ) -> "WorldState":
+        """Return what joints (15 or 19, 2), each position and velocity, blocks and watch tell."""
+        arms = len(JOINT_NAMES)  # then come fingers, if there are any
+        return cls(
+            time=time,
+            joint_positions=frozen(joints[:arms, 0]),
+            joint_velocities=frozen(joints[:arms, 1]),
+            block_poses=frozen(block_poses),
+            touched=watch.touched,
+            tilt=watch.tilt,
+            block_down=watch.down,
+            fingers=frozen(joints[arms:, 0]),
+        )
 
 
 @dataclass(frozen=True)
@@ -49,6 +72,13 @@ class BlockWatch:
     def down(self) -> bool:
         """Whether the taught arm touched it, and it leans more than 60° and is at rest."""
         return self.touched and self.tilt > DOWN_TILT and self.slow_ticks >= REST_TICKS
+
+
+def frozen(values: ArrayLike) -> FloatArray:
+    """Return a copy that nobody can change."""
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
 
 
 def tilt_of(pose: FloatArray) -> float:

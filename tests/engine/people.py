@@ -1,12 +1,15 @@
 """Made-up people for the tests: skeletons whose left and right arms point where one says."""
 
+import math
 from collections.abc import Sequence
 from itertools import groupby
 
 import numpy as np
 
-from studio.engine.skeleton import Hand, HandState, Joint, Side, Skeleton, all_tracked
+from studio.engine.skeleton import SIDES, Hand, HandState, Joint, Side, Skeleton, all_tracked
 from studio.engine.sources.recording import SkeletonRecording, from_skeletons
+
+DOWN = (0.0, 0.0, -1.0)
 
 
 def person(
@@ -33,6 +36,27 @@ def person(
     forward, left, up = (torso @ turn.T).T
     camera = np.column_stack([-left, up, 2.0 - forward])
     return Skeleton(time, camera, all_tracked(), Hand(hand), Hand(), body_id)
+
+
+def hanging(time: float, lean: float = 0.0, yaw: float = 0.3, swing: float = 0.0) -> Skeleton:
+    """Return somebody whose arms hang, and whose spine line leans forward by ``lean`` [rad]."""
+    body = person(time, (DOWN, DOWN), yaw=yaw)
+    positions = body.positions.copy()
+    forward = np.array([-math.sin(yaw), 0.0, -math.cos(yaw)])  # in camera space
+    up = np.array([0.0, 1.0, 0.0])
+    spine = math.cos(lean) * up + math.sin(lean) * forward
+    positions[Joint.SPINE_BASE] = positions[Joint.SPINE_SHOULDER] - 0.5 * spine
+    bone = -math.cos(swing) * up + math.sin(swing) * forward
+    for side in SIDES:
+        shoulder = positions[Joint.of("shoulder", side)]
+        positions[Joint.of("elbow", side)] = shoulder + 0.28 * bone
+        positions[Joint.of("wrist", side)] = shoulder + 0.53 * bone
+    return Skeleton(time, positions, all_tracked())
+
+
+def stand(lean: float = 0.0, frames: int = 60, **other: float) -> list[Skeleton]:
+    """Return the same for a while."""
+    return [hanging(i / 30, lean, **other) for i in range(frames)]
 
 
 def hand_stream(states: Sequence[HandState], rate: float = 30.0) -> SkeletonRecording:

@@ -1,17 +1,23 @@
 """The live loop: it ticks on its own thread, ends cleanly, and a failure is not swallowed."""
 
+import math
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from studio.engine import commands
+from studio.engine import clock, commands
 from studio.engine.clock import LiveLoop
 from studio.engine.errors import FileError, StudioError
+from studio.engine.live.source import LiveSource
 from studio.engine.mcap_file import read_recording
+from studio.engine.robot import CONTROL_PERIOD
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode
+from studio.engine.sources.family import Frame
+from tests.engine.people import person
 
 
 def wait_for(condition, seconds: float = 20.0) -> None:
@@ -60,3 +66,60 @@ def test_a_loop_that_ended_says_so(tmp_path: Path) -> None:
         wait_for(ended)
         with pytest.raises(StudioError, match="not running"):
             _ = loop.session
+
+
+@pytest.mark.parametrize("rate", [25.0, 60.0])
+def test_awaited_frames_leave_the_ticks_at_thirty_a_second(tmp_path, rate: float) -> None:
+    live = LiveSource(clock.now)
+    live.drive("publisher 1", "studio jsonl")
+    with LiveLoop(lambda: Session(tmp_path, live=live)) as loop:
+        loop.session.post(commands.UseLive())
+        loop.session.post(commands.Watch())
+        wait_for(lambda: loop.session.snapshot.mode is Mode.WATCHING)
+        begun, before, skipped = time.monotonic(), loop.session.snapshot.time, loop.skipped
+        for n in range(int(1.5 * rate)):
+            time.sleep(max(0.0, begun + n / rate - time.monotonic()))
+            live.put(Frame(n / rate, (person(n / rate),)), clock.now(), True)
+
+        def behind() -> float:
+            ticked = loop.session.snapshot.time - before
+            ticked += (loop.skipped - skipped) * CONTROL_PERIOD
+            return time.monotonic() - begun - ticked
+
+        wait_for(lambda: abs(behind()) < 0.1)  # a busy machine catches up
+
+
+@pytest.mark.parametrize(
+    ("comes", "ticks"),
+    [
+        (9.0, 10.0 - CONTROL_PERIOD),  # it waited already: at the beginning of the tick's period
+        (9.98, 9.98),  # at once
+        (11.0, 10.0),  # none came: when the tick is due
+    ],
+)
+def test_an_awaited_frame_brings_its_tick_forward(monkeypatch, comes: float, ticks: float) -> None:
+    time_now = [9.5]
+
+    class Waiting:
+        def __init__(self, set_at: float) -> None:
+            self.set_at = set_at
+
+        def wait(self, timeout: float) -> bool:
+            until = max(min(time_now[0] + timeout, self.set_at), time_now[0])
+            time_now[0] = until
+            return self.set_at <= until
+
+    monkeypatch.setattr(clock, "now", lambda: time_now[0])
+    loop = LiveLoop(lambda: None)
+    loop._stopping = Waiting(math.inf)
+    assert loop._wait_for_tick(SimpleNamespace(awaited=Waiting(comes)), due=10.0)
+    assert time_now[0] == pytest.approx(ticks)
+
+
+def test_a_wait_ends_where_it_is_due_or_stopped() -> None:
+    stopping = threading.Event()
+    due = clock.now() + 0.05
+    assert clock.wait_until(due, stopping)
+    assert clock.now() >= due
+    stopping.set()
+    assert not clock.wait_until(clock.now() + 60.0, stopping)

@@ -1,5 +1,7 @@
 """From recordings to aligned rows: trimmed to what was armed, resampled, split by demonstration."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,10 +15,11 @@ from studio.engine.demonstration import (
     demonstrations_of,
     resample,
 )
+from studio.engine.engage import ARRIVED_WITHIN, COMING
 from studio.engine.errors import NothingTaughtError, StudioError
 from studio.engine.follow import follow
 from studio.engine.pipeline import Pipeline
-from studio.engine.recording import Recording
+from studio.engine.recording import Recording, Sample
 from studio.engine.robot import load_robot
 from studio.engine.sources.demonstrator import demonstrate
 
@@ -34,9 +37,17 @@ def recording() -> Recording:
     return follow(demonstrate(2, 1), Pipeline.for_robot(load_robot(), "left"))
 
 
+def behind(sample: Sample) -> float:
+    return float(np.abs(np.array(sample.wanted) - sample.sent).max())
+
+
 def test_a_demonstration_is_the_armed_part_of_what_was_sent(recording: Recording) -> None:
     (only,) = demonstrations_of(recording, "take")
-    armed = [i for i, sample in enumerate(recording.samples) if sample.gate.armed]
+    armed = [i for i, each in enumerate(recording.samples) if each.gate.armed]
+    assert recording.samples[armed[0]].held == COMING
+    while behind(recording.samples[armed[0]]) > ARRIVED_WITHIN:  # on its way to the person
+        armed.pop(0)
+    assert recording.samples[armed[1]].held == ""
     assert (only.first_sample, only.last_sample) == (armed[0], armed[-1])
     assert np.array_equal(only.sent, [recording.samples[i].sent for i in armed])
     assert only.times[0] == 0.0
@@ -93,3 +104,32 @@ def test_a_set_is_aligned_and_as_long_as_its_mean() -> None:
     assert taught.rows.shape == (2, SAMPLES, 4)
     assert taught.duration == 3.0
     assert np.allclose(taught.mean, taught.rows.mean(axis=0))
+
+
+def test_where_the_robot_never_gets_there_all_is_kept_in_which_somebody_is_followed(
+    recording: Recording,
+) -> None:
+    first, last = armed_stretches(recording)[0]
+    far = [
+        replace(each, wanted=tuple(np.array(each.wanted) + 1.0)) if each.wanted else each
+        for each in recording.samples
+    ]
+    far[first : first + 5] = [replace(each, wanted=None) for each in far[first : first + 5]]
+    (only,) = demonstrations_of(Recording(recording.info, tuple(far)), "take")
+    assert (only.first_sample, only.last_sample) == (first + 5, last)
+    nobody = tuple(replace(each, wanted=None) for each in far)
+    assert demonstrations_of(Recording(recording.info, nobody), "take") == []
+
+
+def test_of_two_arms_the_first_that_has_come_begins(recording: Recording) -> None:
+    first, _ = armed_stretches(recording)[0]
+    arms = replace(recording.info, arms="both")
+    pairs = []
+    for i, each in enumerate(recording.samples):
+        other = 1.0 if i < first + 60 else 0.0  # [rad] behind, of an arm that comes later
+        wanted = None if each.wanted is None else (*each.wanted, *(each.sent + other).tolist())
+        pairs.append(replace(each, sent=np.tile(each.sent, 2), wanted=wanted))
+    (alone,) = demonstrations_of(recording, "take")
+    (both,) = demonstrations_of(Recording(arms, tuple(pairs)), "take")
+    assert both.first_sample == alone.first_sample
+    assert np.array_equal(both.sent, np.tile(alone.sent, 2))

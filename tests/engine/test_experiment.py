@@ -8,19 +8,21 @@ import numpy as np
 import pytest
 
 from studio.engine.demonstration import DemonstrationSet, demonstrations_of
-from studio.engine.errors import StudioError
-from studio.engine.experiment import Setup, run_experiment
+from studio.engine.engage import COMING
+from studio.engine.errors import FileError, StudioError
+from studio.engine.experiment import Setup, Teachers, run_experiment, teach
 from studio.engine.follow import follow
 from studio.engine.mcap_file import write_recording
 from studio.engine.performance import perform
 from studio.engine.pipeline import Pipeline
 from studio.engine.report import as_json, as_text
 from studio.engine.robot import load_robot
-from studio.engine.skeleton import HandState, Joint, Tracking, all_tracked
+from studio.engine.skeleton import HandState, Joint, Skeleton, Tracking, all_tracked
 from studio.engine.sources import write_skeletons
 from studio.engine.sources.demonstrator import demonstrate
 from studio.engine.sources.recording import from_skeletons
 from studio.engine.teaching import LearnerSettings, learn
+from tests.engine.people import person
 
 TAKES = [demonstrate(0, take) for take in (1, 2, 3, 4)]
 
@@ -52,10 +54,22 @@ def test_what_is_printed_is_what_was_measured(experiment) -> None:
     assert shown["reproduction"]["hand_error_mm"]["mean"] == pytest.approx(
         1000 * experiment.reproduction.deviation.hand_mean
     )
+    played = [experiment.reproduction, *experiment.replays]
+    for told, each in zip([shown["reproduction"], *shown["demonstrations"]], played, strict=True):
+        ticks = each.performance.ticks
+        assert told["guarded_ticks"] == sum(bool(tick.command.guarded) for tick in ticks)
+        assert told["refusal"] == ""
     for file in shown["files"]:
         following = sum(last - first + 1 for first, last in file["armed"])
         assert following == file["armed_frames"]
+        coming = file["held"].pop(COMING, 0)  # armed, but not yet where the person is
         assert file["armed_frames"] + sum(file["held"].values()) == file["frames"]
+        assert coming < 30
+    ticks = experiment.reproduction.performance.ticks
+    near = replace(ticks[0], command=replace(ticks[0].command, guarded="hand is near: slowed"))
+    alone = replace(experiment.reproduction.performance, ticks=(near, *ticks[1:]))
+    changed = replace(experiment, reproduction=replace(experiment.reproduction, performance=alone))
+    assert f"Alone: The collision guard changed 1 of {len(ticks)} ticks" in as_text(changed)
     text = as_text(experiment)
     assert "floor" in text
     assert "Block down: alone yes" in text
@@ -70,7 +84,7 @@ def test_a_still_arm_and_the_mean_posture_leave_the_block_standing(experiment) -
     taught = experiment.lesson.taught
     start, posture = taught.mean[0], taught.mean.mean(axis=0)
     for constant in (start, posture):
-        stands = perform(lambda _, q=constant: q, 3.0, taught.side, taught.mapping)
+        stands = perform(lambda _, q=constant: q, 3.0, taught.arms, taught.mapping)
         assert not stands.block_down
 
 
@@ -128,8 +142,71 @@ def test_an_arm_that_is_never_seen_teaches_nothing() -> None:
 def test_the_right_arm_mirrors_the_scene() -> None:
     recording = follow(TAKES[0], Pipeline.for_robot(load_robot(), "right", gate_mode="open"))
     taught = DemonstrationSet.of(demonstrations_of(recording, "right"))
-    assert learn(taught, LearnerSettings()).taught.side == "right"
+    assert learn(taught, LearnerSettings()).taught.arms == "right"
     assert recording.samples[0].world.block_poses[0, 1] < 0.0
+
+
+@pytest.mark.parametrize(("mapping", "columns"), [("exact", 8), ("paper", 6)])
+def test_both_arms_are_taught_and_do_it_again(mapping, columns: int) -> None:
+    found = run_experiment(TAKES[:2], Setup(arms="both", mapping=mapping))
+    taught = found.lesson.taught
+    assert taught.rows.shape == (2, 142, columns)
+    assert as_json(found)["joints"] == list(taught.joints)
+    assert {joint.partition("_")[0] for joint in taught.joints} == {"left", "right"}
+    assert found.reproduction.performance.block_down
+    assert found.reproduction.deviation.joint_rmse.shape == (columns,)
+
+
+def test_in_a_mirror_the_left_hand_teaches_the_right_arm() -> None:
+    """Two roads: the reflected world of the left arm, to the last joint."""
+    left = run_experiment(TAKES[:1], Setup())
+    right = run_experiment(TAKES[:1], Setup(arms="right", mirrored=True))
+    assert right.reproduction.performance.block_down
+    assert np.allclose(
+        right.lesson.taught.rows, left.lesson.taught.rows * [-1, 1, -1, 1], atol=1e-6
+    )
+
+
+def test_a_recording_made_in_another_way_is_followed_anew(tmp_path: Path) -> None:
+    kept = []
+    teach(TAKES[:1], Setup(), keep=kept.append)
+    write_recording(tmp_path / "take.mcap", kept[0])
+    for setup, anew in ((Setup(), False), (Setup(mirrored=True), True), (Setup(arms="both"), True)):
+        (file,) = teach([tmp_path / "take.mcap"], setup).files
+        assert ("followed anew" in file.format) == anew
+
+
+def test_a_calibration_is_taken_from_the_file_kept_and_used_again(tmp_path: Path) -> None:
+    hanging = [person(i / 30, ((0.1, 0.0, -1.0),) * 2) for i in range(75)]  # one arm; both below
+    hanging = [both_arms_as_left(each) for each in hanging]
+    rest = [replace(each, time=each.time + 2.5) for each in TAKES[0]]
+    stream = from_skeletons([*hanging, *rest], "calibrated", "test")
+    kept = []
+    plain = teach([stream], Setup(), keep=kept.append)
+    found = teach([stream], Setup(calibrate_at=0.2), keep=kept.append)
+    lean = kept[1].info.calibration.lean
+    assert lean == pytest.approx(np.arctan(0.1), abs=1e-6)
+    assert kept[0].info.calibration is None
+    assert not np.allclose(sent(found), sent(plain), atol=0.02)
+    write_recording(tmp_path / "take.mcap", kept[1])
+    again = teach([tmp_path / "take.mcap"], Setup())
+    assert np.array_equal(sent(again), sent(found))
+    with pytest.raises(FileError, match=r"calibrated, 6 s into it: calibration: "):
+        teach([stream], Setup(calibrate_at=6.0))
+
+
+def sent(taught: Teachers) -> np.ndarray:
+    (only,) = taught.demonstrations
+    return only.at(np.linspace(0.0, 5.0, 50))
+
+
+def both_arms_as_left(skeleton: Skeleton) -> Skeleton:
+    """Return the person with the right arm parallel to the left one."""
+    positions = skeleton.positions.copy()
+    aside = positions[Joint.SHOULDER_RIGHT] - positions[Joint.SHOULDER_LEFT]
+    for part in ("elbow", "wrist"):
+        positions[Joint.of(part, "right")] = positions[Joint.of(part, "left")] + aside
+    return replace(skeleton, positions=positions, body_id="1")
 
 
 @pytest.mark.parametrize("neurons", [0, -1, 1001])

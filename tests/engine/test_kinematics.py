@@ -120,3 +120,19 @@ def test_link_poses_take_one_row() -> None:
 def test_an_unknown_link_is_refused_with_the_known_ones() -> None:
     with pytest.raises(StudioError, match=r"'left_foot'.*left_hand"):
         load_robot().forward_kinematics("left_foot", np.zeros(15))
+
+
+def test_all_links_stacked_are_all_links() -> None:
+    kinematics = load_robot().kinematics
+    poses = np.random.default_rng(0).uniform(-1.5, 1.5, (3, 15))
+    for angles, stack in zip(poses, kinematics.stacked(poses), strict=True):
+        each = kinematics.all_links(angles)
+        for link, pose in zip((kinematics.root, *kinematics.children), stack, strict=True):
+            np.testing.assert_allclose(pose, each[link], atol=1e-12)
+
+
+def test_below_a_joint_is_what_it_moves() -> None:
+    kinematics = load_robot().kinematics
+    column = load_robot().joint_index("right_w1")
+    found = [kinematics.children[joint] for joint in kinematics.below([column])]
+    assert found == ["right_lower_forearm", "right_wrist", "right_hand"]

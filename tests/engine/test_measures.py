@@ -5,6 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from studio.engine.arms import driven_joints
+from studio.engine.hands import HandOptions, HandTrack
 from studio.engine.measures import deviation, dtw_distance, hand_path
 from studio.engine.performance import Performance, Tick, joint_columns, whole_body
 from studio.engine.robot import CONTROL_PERIOD
@@ -58,20 +60,32 @@ def performance_of(rows: np.ndarray, duration: float) -> Performance:
 
 
 def test_a_performance_without_error_measures_none_and_an_offset_measures_itself() -> None:
-    joints = ("s0", "s1", "e0", "e1")
+    joints = driven_joints("left")
     rows = np.linspace((0.0, -0.5, 0.1, 1.0), (0.5, 0.2, -0.3, 1.5), 142)
-    exact = performance_of(whole_body(rows, "left", joints), 3.0)
+    exact = performance_of(whole_body(rows, joints), 3.0)
     none = deviation(exact, rows, joints)
     assert none.joint_rmse == pytest.approx(0.0, abs=1e-9)
     assert (none.hand_mean, none.hand_max) == pytest.approx((0.0, 0.0), abs=1e-9)
     off = deviation(exact, rows + np.array([0.1, 0.0, 0.0, 0.0]), joints)
     assert off.joint_rmse == pytest.approx([0.1, 0.0, 0.0, 0.0], abs=1e-9)
     # Turning s0 by 0.1 rad moves the hand on a circle about the shoulder's upright axis.
-    hand = hand_path(whole_body(rows, "left", joints), "left")
+    hand = hand_path(whole_body(rows, joints), "left")
     radius = np.linalg.norm((hand - [0.0640, 0.2590, 0.0])[:, :2], axis=1)
     assert off.hand_mean == pytest.approx(2 * np.sin(0.05) * radius.mean(), rel=0.01)
     assert off.hand_dtw <= off.hand_mean <= off.hand_max
 
 
+def test_a_wrist_that_does_what_it_should_is_no_error_of_the_hand() -> None:
+    joints = driven_joints("left")
+    rows = np.linspace((0.0, -0.5, 0.1, 1.0), (0.5, 0.2, -0.3, 1.5), 142)
+    options, times = HandOptions(wrist="level"), np.linspace(0.0, 3.0, 142)
+    wrist = np.linspace((0.0, 0.5, 0.0), (0.3, -0.5, 0.2), 142)
+    hands = HandTrack(options, times, wrist, np.zeros(142, dtype=bool))
+    body = whole_body(np.hstack([rows, wrist]), (*joints, *options.wrist_joints("left")))
+    performed = performance_of(body, 3.0)
+    assert deviation(performed, rows, joints, hands).hand_max == pytest.approx(0.0, abs=1e-9)
+    assert deviation(performed, rows, joints).hand_mean > 0.03
+
+
 def test_columns_are_the_arms() -> None:
-    assert joint_columns("right", ("s0", "e1")) == [7, 10]
+    assert joint_columns(("right_s0", "right_e1")) == [7, 10]

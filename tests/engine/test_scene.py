@@ -26,7 +26,7 @@ def test_the_tasks_block_is_the_one_that_stands() -> None:
 
 
 def test_teaching_the_right_arm_mirrors_what_stands_around() -> None:
-    left, right = Scene(), Scene(arm="right")
+    left, right = Scene(), Scene(arms="right")
     assert left.placed_blocks == left.blocks
     assert left.placed_desk == left.desk
     for seen, mirrored in zip(
@@ -61,5 +61,5 @@ def test_impossible_desks_and_scenes_are_refused() -> None:
         Desk((0.6, -0.9, 0.04), (0.75, 0.15, 0.7), 0.8)
     with pytest.raises(StudioError, match="at least one block"):
         Scene(blocks=())
-    with pytest.raises(StudioError, match="left or right"):
-        Scene(arm="both")  # type: ignore[arg-type]
+    with pytest.raises(StudioError, match="left arm, the right or both"):
+        Scene(arms="neither")  # type: ignore[arg-type]

@@ -7,18 +7,26 @@ import pytest
 from mcap.writer import Writer
 
 from studio.engine import commands
+from studio.engine.activity import Perform
+from studio.engine.arms import driven_joints
+from studio.engine.choices import Choices
 from studio.engine.commands import Command
+from studio.engine.demonstration import Demonstration
 from studio.engine.errors import StudioError
 from studio.engine.follow import follow
+from studio.engine.hands import HandOptions
 from studio.engine.mcap_file import read_recording
-from studio.engine.pipeline import Pipeline
+from studio.engine.performance import in_guards_words, joint_columns
+from studio.engine.pipeline import Pipeline, ready_pose
 from studio.engine.robot import load_robot
 from studio.engine.session import Session
 from studio.engine.skeleton import HandState
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.sources import write_skeletons
 from studio.engine.sources.demonstrator import demonstrate
+from studio.engine.sources.recording import from_skeletons
 from studio.engine.teaching import LearnerSettings
+from tests.engine.people import stand
 
 
 @pytest.fixture
@@ -119,11 +127,48 @@ def test_a_full_disk_is_said_and_the_session_lives(session: Session, monkeypatch
     assert do(session, commands.Watch()).mode is Mode.WATCHING
 
 
+def test_any_fault_in_a_tick_is_said_and_the_session_holds_still(session, monkeypatch) -> None:
+    def break_down(*_: object) -> None:
+        raise OverflowError("nobody foresaw it")
+
+    do(session, commands.UseDemonstrator(), commands.Record())
+    for _ in range(30):
+        session.tick()
+    monkeypatch.setattr(Writer, "add_message", break_down)
+    broken = session.tick()
+    assert (broken.mode, broken.message.is_error) == (Mode.IDLE, True)
+    assert "nothing recorded is lost" in broken.message.text
+    monkeypatch.undo()
+    (kept,) = session._recordings.iterdir()
+    assert len(read_recording(kept).samples) == 31
+    assert do(session, commands.Watch()).mode is Mode.WATCHING
+
+
+@pytest.mark.parametrize("fault", [OverflowError(), RecursionError(), KeyError("x"), MemoryError()])
+def test_any_fault_in_a_command_is_said_and_the_session_holds_still(
+    session, monkeypatch, fault: Exception
+) -> None:
+    def break_down(*_: object) -> None:
+        raise fault
+
+    do(session, commands.UseDemonstrator(), commands.Watch())
+    monkeypatch.setattr("studio.engine.session.is_recording", break_down)
+    broken = do(session, commands.UseFile(Path("any")))
+    assert (broken.mode, broken.message.is_error) == (Mode.IDLE, True)
+    assert f"Internal fault: {type(fault).__name__}" in broken.message.text
+    before = broken.world.joint_positions
+    held = [session.tick() for _ in range(30)][-1]
+    assert held.message == broken.message
+    assert np.abs(held.world.joint_positions - before).max() < 0.15
+    assert do(session, commands.Watch()).mode is Mode.WATCHING
+
+
 @pytest.mark.parametrize(
     ("order", "words"),
     [
         (commands.Watch(), "source"),
         (commands.Record(), "source"),
+        (commands.Calibrate(), "source"),
         (commands.Train(LearnerSettings()), "record one first"),
         (commands.PlayReproduction(), "Train first"),
         (commands.PlayDemonstration(), "no such demonstration"),
@@ -171,16 +216,16 @@ def test_recordings_come_back_and_go(session: Session, tmp_path: Path) -> None:
 def test_another_mapping_wants_its_own_demonstrations(session: Session) -> None:
     do(session, commands.UseDemonstrator(), commands.Record())
     until(session, Mode.IDLE)
-    do(session, commands.Configure("left", "paper", "sequence"))
+    do(session, commands.Configure(Choices("left", "paper", "sequence")))
     refused = do(session, commands.Train(LearnerSettings()))
     assert "paper mapping" in refused.message.text
     assert refused.lesson is None
 
 
 def test_an_open_gate_follows_at_once(session: Session) -> None:
-    do(session, commands.Configure("right", "paper", "open"), commands.UseDemonstrator())
+    do(session, commands.Configure(Choices("right", "paper", "open")), commands.UseDemonstrator())
     assert do(session, commands.Watch()).gate.armed
-    refused = do(session, commands.Configure("left", "exact", "sequence"))
+    refused = do(session, commands.Configure(Choices("left", "exact", "sequence")))
     assert "Stop first" in refused.message.text
 
 
@@ -208,3 +253,104 @@ def test_a_world_is_its_threads_own(session: Session) -> None:
     thread.start()
     thread.join()
     assert len(caught) == 1
+
+
+def standing_file(tmp_path: Path, lean: float = 0.1) -> Path:
+    path = tmp_path / "stands.jsonl"
+    write_skeletons(path, from_skeletons(stand(lean, frames=150), "made up", "test"))
+    return path
+
+
+def test_a_calibration_is_kept_for_what_is_taught_next(session: Session, tmp_path: Path) -> None:
+    do(session, commands.UseFile(standing_file(tmp_path)))
+    before = session.snapshot.world.joint_positions
+    calibrating = do(session, commands.Calibrate())
+    assert calibrating.mode is Mode.CALIBRATING
+    assert calibrating.calibrating.share == 0.0
+    assert session.tick().calibrating.words.startswith("Keep still")
+    done = until(session, Mode.IDLE, most=75)
+    assert np.abs(done.world.joint_positions - before).max() < 0.05
+    assert done.choices.calibration.lean == pytest.approx(0.1, abs=1e-6)
+    assert "torso leans 6°: corrected" in done.message.text
+    assert (done.calibrated_with, done.calibrating) == ("stands.jsonl", None)
+    do(session, commands.Configure(Choices("left", "exact", "open")), commands.Record())
+    assert session.snapshot.choices.calibration == done.choices.calibration
+    info = read_recording(Path(until(session, Mode.IDLE).saved_as)).info
+    assert info.calibration == done.choices.calibration
+    assert do(session, commands.ForgetCalibration()).choices.calibration is None
+
+
+def test_a_calibration_that_fails_keeps_the_one_before(session: Session, tmp_path: Path) -> None:
+    do(session, commands.UseFile(standing_file(tmp_path)), commands.Calibrate())
+    found = until(session, Mode.IDLE).choices.calibration
+    do(session, commands.UseDemonstrator(), commands.Calibrate())
+    failed = until(session, Mode.IDLE)
+    assert failed.message.is_error
+    assert "let both arms hang" in failed.message.text
+    assert "Press Calibrate to try again" in failed.message.text
+    assert failed.choices.calibration == found
+    do(session, commands.Calibrate())
+    assert do(session, commands.Stop()).message.text == "Stopped."
+    assert session.snapshot.choices.calibration == found
+
+
+def test_a_lesson_outlives_what_does_not_change_its_joints(session: Session) -> None:
+    do(session, commands.UseDemonstrator(), commands.Record())
+    until(session, Mode.IDLE)
+    lesson = do(session, commands.Train(LearnerSettings("rbf", 20))).lesson
+    assert lesson is not None
+    held = session._activity.world
+    for kept in (
+        Choices("left", "exact", "open", mirrored=True),
+        Choices("left", "exact", hands=HandOptions(wrist="level")),
+    ):
+        assert do(session, commands.Configure(kept)).lesson is lesson
+        assert session._activity.world is held
+    with_fingers = do(session, commands.Configure(Choices(hands=HandOptions(gripper=True))))
+    assert with_fingers.lesson is lesson
+    assert len(with_fingers.world.fingers) == 4
+    assert do(session, commands.Configure(Choices("both"))).lesson is None
+
+
+def test_what_the_guard_keeps_apart_is_shown_in_teaching(session: Session) -> None:
+    """Both arms by somebody whose right one hangs: its elbow comes to the torso's side."""
+    do(session, commands.Configure(Choices("both")), commands.UseDemonstrator(), commands.Record())
+    seen = set()
+    while session.snapshot.mode is Mode.RECORDING:
+        seen.add(session.tick().guarded)
+    assert any("right elbow" in words and "slowed" in words for words in seen)
+    assert "right elbow rests beside the torso" in seen
+    assert not any("right elbow" in words and "stopped" in words for words in seen)
+
+
+def test_what_the_guard_keeps_apart_is_told_in_playing() -> None:
+    ready, low = ready_pose("left", "exact"), np.array([0.0, 1.0, 0.0, 0.0])
+    playing = Perform(lambda t: ready + t / 3 * (low - ready), 3.0, "left", "exact")
+    seen = {playing.guarded}
+    while playing.step():
+        seen.add(playing.guarded)
+    playing.world.close()
+    assert "" in seen
+    assert any("desk: stopped" in words for words in seen)
+    ticks = playing.performance.ticks
+    assert 0 < playing.guarded_ticks == sum(bool(tick.command.guarded) for tick in ticks)
+    assert playing.performance.guarded_ticks == playing.guarded_ticks  # there was no way to go
+    assert f"changed {playing.guarded_ticks} of {len(ticks)} ticks" in in_guards_words(
+        playing.performance
+    )
+
+
+def test_a_motion_whose_beginning_cannot_be_reached_is_refused_in_words(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    do(session, commands.UseDemonstrator(), commands.Record())
+    until(session, Mode.IDLE)
+    into_the_desk = lambda self: lambda _: np.array([-1.2, 1.04, 0.0, 0.1])  # noqa: E731
+    monkeypatch.setattr(Demonstration, "trajectory", into_the_desk)
+    refused = do(session, commands.PlayDemonstration())
+    assert refused.message.is_error
+    assert "cannot come to where this motion begins" in refused.message.text
+    assert "from the desk" in refused.message.text
+    assert refused.mode is Mode.IDLE
+    waits = refused.world.joint_positions[joint_columns(driven_joints("left"))]
+    assert np.allclose(waits, ready_pose("left", "exact"), atol=0.03)  # it has not moved

@@ -13,7 +13,7 @@ from tests.engine.motions import MOTIONS, moved, play, rows
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("motion", MOTIONS)
 def test_the_block_can_be_pushed_down_and_the_others_stay(motion: str, side: Side) -> None:
-    states = play(Scene(arm=side), rows(motion, side), side)
+    states = play(Scene(arms=side), rows(motion, side), side)
     assert states[-1].block_down
     assert not states[0].touched
     others = states[-1].block_poses[1:, :3] - states[0].block_poses[1:, :3]
@@ -44,9 +44,9 @@ def test_idle_blocks_stand_still() -> None:
 
 @pytest.mark.parametrize(("taught", "counts"), [("right", True), ("left", False)])
 def test_a_push_by_the_arm_that_is_not_taught_does_not_count(taught: Side, counts: bool) -> None:
-    scene = Scene(arm="right")
+    scene = Scene(arms="right")
     if taught == "left":  # told mirrored, so that everything stands in the same places
-        scene = Scene(desk=scene.placed_desk, blocks=scene.placed_blocks, arm="left")
+        scene = Scene(desk=scene.placed_desk, blocks=scene.placed_blocks, arms="left")
     last = play(scene, rows("sweep exact", "right"), "right")[-1]
     assert last.tilt > math.radians(60)
     assert last.touched == counts
