@@ -21,6 +21,7 @@ from studio.panels.source import SourcePanel
 from studio.panels.status import MessagePanel, StatusPanel
 from studio.panels.teach import TeachPanel
 from studio.panels.uploads import Uploads
+from studio.panels.visitors import turn_strangers_away
 
 TITLE = "Baxter's teaching studio"
 FRAME = 1.0 / 30.0  # [s] between two pictures of the scene
@@ -54,6 +55,7 @@ class App:
         self._loop = loop
         with _quiet():
             self._server = viser.ViserServer(host, port, label=TITLE, verbose=False)
+        turn_strangers_away(self._server)
         self._uploads = Uploads()
         self._lay_out(self._server.gui)
         self.scene = SceneView(self._server, detail)

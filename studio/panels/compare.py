@@ -4,6 +4,7 @@ import numpy as np
 import viser
 
 from studio.engine import commands
+from studio.engine.performance import in_guards_words
 from studio.engine.report import joint_names
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.teaching import Lesson, Reproduction
@@ -47,6 +48,7 @@ class ComparePanel:
 def compared(lesson: Lesson, reproduction: Reproduction) -> str:
     """Return how well the robot did alone, as HTML."""
     down, error = reproduction.performance.block_down, reproduction.deviation
+    guarded = in_guards_words(reproduction.performance)
     verdict = "✔ The block is down." if down else "✖ The block still stands."
     size = "font-size:max(22px,2.8vh);font-weight:700;line-height:1.25"
     degrees = np.degrees(error.joint_rmse)
@@ -61,6 +63,7 @@ def compared(lesson: Lesson, reproduction: Reproduction) -> str:
         + markup.table(("joint", "RMSE [deg]"), joints)
         + markup.table(("hand", "error [mm]"), hand)
         + markup.note("What was measured alone, against the mean demonstration as it was sent.")
+        + (markup.note(guarded) if guarded else "")
     )
 
 
@@ -68,5 +71,7 @@ def _outcome(now: Snapshot) -> str:
     if now.lesson is not None and now.reproduction is not None:
         return compared(now.lesson, now.reproduction)
     if now.mode is Mode.PLAYING and now.alone:
-        return markup.note("The numbers come when Baxter is through.")
+        so_far = f" The collision guard has changed {now.guarded_ticks} ticks so far."
+        waiting = "The numbers come when Baxter is through."
+        return markup.note(waiting + (so_far if now.guarded_ticks else ""))
     return ""

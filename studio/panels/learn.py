@@ -3,6 +3,7 @@
 import viser
 
 from studio.engine import commands
+from studio.engine.arms import in_words
 from studio.engine.report import joint_names
 from studio.engine.snapshot import Snapshot
 from studio.engine.teaching import LearnerName, LearnerSettings, Lesson
@@ -77,5 +78,5 @@ def _material(now: Snapshot) -> str:
     count = len(fitting(now))
     return markup.block(
         f"{count} demonstration{'s' if count > 1 else ''} to learn from: "
-        f"{now.side} arm, {now.mapping} mapping."
+        f"{in_words(now.choices.arms)}, {now.choices.mapping} mapping."
     )

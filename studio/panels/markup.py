@@ -44,7 +44,7 @@ def table(
     """Return a table: ``left`` columns of words, the others of numbers; row ``bold`` stands out."""
 
     def cell(kind: str, words: str, column: int, extra: str = "") -> str:
-        align = "left" if column < left else "right"
+        align = "left" if column < left else "right;white-space:nowrap"
         style = f"text-align:{align};padding:.15em .3em;font-variant-numeric:tabular-nums;{extra}"
         return f'<{kind} style="{style}">{text(words)}</{kind}>'
 

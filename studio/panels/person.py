@@ -1,12 +1,11 @@
 """The person, standing beside the robot and facing the way it faces."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import trimesh
 import viser
 from numpy.typing import NDArray
 
+from studio.engine.placement import Placement
 from studio.engine.skeleton import (
     BONES,
     JOINT_COUNT,
@@ -19,31 +18,8 @@ from studio.engine.skeleton import (
 from studio.engine.snapshot import Snapshot
 from studio.panels.palette import HAND, UNSEEN_HAND
 
-SPOT = np.array([0.1, -1.3])  # [m] ahead and to the left of the robot's axis, in the camera's view
 ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
 _BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
-
-# The axes of a person who faces the sensor, in camera space: forward, left, up.
-WORLD_FROM_CAMERA = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-
-
-@dataclass(frozen=True, eq=False)
-class Placement:
-    """Where camera space lies in the world, for one person: ``world = R · camera + offset``."""
-
-    offset: FloatArray  # (3,) [m]
-
-    @classmethod
-    def of(cls, skeleton: Skeleton) -> "Placement":
-        """Put a person's hips over the spot beside the robot, and the lowest joint on the floor."""
-        turned = skeleton.positions @ WORLD_FROM_CAMERA.T
-        offset = np.append(SPOT - turned[Joint.SPINE_BASE, :2], -turned[:, 2].min())
-        return cls(offset)
-
-    def place(self, positions: FloatArray) -> FloatArray:
-        """Return points (..., 3) [m] of camera space in the world."""
-        placed: FloatArray = positions @ WORLD_FROM_CAMERA.T + self.offset
-        return placed
 
 
 class PersonView:
@@ -51,7 +27,7 @@ class PersonView:
 
     def __init__(self, scene: viser.SceneApi, name: str = "/person") -> None:
         self._placement: Placement | None = None
-        self._person: object = None  # whom it is for
+        self._person = ("", "")  # whom it is for: the source's name, the body's id
         self._drawn: object = None
         self._root = scene.add_frame(name, show_axes=False, visible=False)
         ball = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
@@ -89,7 +65,7 @@ class PersonView:
 
     def _placed(self, skeleton: Skeleton, now: Snapshot) -> FloatArray:
         """Return the joints (25, 3) [m] in the world; another person gets another placement."""
-        person = (now.source, skeleton.body_id)
+        person = (now.source.name if now.source else "", skeleton.body_id)
         if self._placement is None or person != self._person:
             self._person, self._placement = person, Placement.of(skeleton)
         return self._placement.place(skeleton.positions)

@@ -1,5 +1,6 @@
 """The evidence: what was taught, what the network learned, what Baxter did, joint by joint."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,7 +8,7 @@ import viser
 
 from studio.engine.demonstration import SAMPLES, DemonstrationSet, resample
 from studio.engine.performance import joint_columns
-from studio.engine.skeleton import FloatArray
+from studio.engine.skeleton import SIDES, FloatArray
 from studio.engine.snapshot import Mode, Snapshot
 from studio.panels import markup
 from studio.panels.palette import ENVELOPE, GHOST, MEAN, NETWORK, ROBOT, css
@@ -38,10 +39,11 @@ class Curves:
 
 
 class EvidencePanel:
-    """One plot a joint, and what its lines are."""
+    """One plot a joint, and what its lines are; of two arms one at a time, so that all is seen."""
 
     def __init__(self, gui: viser.GuiApi, tab: viser.GuiTabHandle) -> None:
         self._gui, self._tab = gui, tab
+        self._arm = gui.add_dropdown("Arm", SIDES, visible=False)
         self._legend = gui.add_html(_NOTHING)
         self._plots: list[JointPlot] = []
         self._trace = Trace()
@@ -55,26 +57,30 @@ class EvidencePanel:
             now.chosen,
             now.lesson,
             now.reproduction,
-            (now.side, now.mapping),
+            now.choices.joints,
             len(self._trace.times) // _NEW_POINTS,
+            self._arm.value,
         )
         if state == self._drawn:
             return
         self._drawn = state
         curves = curves_of(now, self._trace)
         self._legend.content = _NOTHING if curves is None else _LEGEND
+        columns = () if curves is None else shown_columns(curves.joints, self._arm.value)
+        self._arm.visible = curves is not None and len(columns) < len(curves.joints)
         for number, plot in enumerate(self._plots):
-            plot.chart.visible = curves is not None and number < len(curves.joints)
+            plot.chart.visible = number < len(columns)
         if curves is not None:
-            self._show(curves)
+            self._show(curves, columns)
 
-    def _show(self, curves: Curves) -> None:
-        for column, joint in enumerate(curves.joints):
-            if column == len(self._plots):
+    def _show(self, curves: Curves, columns: Sequence[int]) -> None:
+        for number, column in enumerate(columns):
+            joint, data = curves.joints[column], curves.of_joint(column)
+            if number == len(self._plots):
                 with self._tab:
-                    self._plots.append(JointPlot(self._gui, joint, curves.of_joint(column)))
+                    self._plots.append(JointPlot(self._gui, joint, data))
             else:
-                self._plots[column].draw(joint, curves.of_joint(column))
+                self._plots[number].draw(joint, data)
 
 
 class JointPlot:
@@ -129,6 +135,12 @@ class Trace:
         )
 
 
+def shown_columns(joints: Sequence[str], side: str) -> list[int]:
+    """Return which joints' plots are shown: of two arms' joints one side's, else all."""
+    of_side = [i for i, joint in enumerate(joints) if joint.startswith(f"{side}_")]
+    return of_side or list(range(len(joints)))
+
+
 def curves_of(now: Snapshot, trace: Trace) -> Curves | None:
     """Return what is known of the taught motion, or None where nothing was taught."""
     listed = [entry.demonstration for entry in fitting(now)]
@@ -138,9 +150,9 @@ def curves_of(now: Snapshot, trace: Trace) -> Curves | None:
     stamps = np.linspace(0.0, taught.duration, SAMPLES)
     nothing = np.full_like(taught.mean, np.nan)
     chosen = now.entries[now.chosen].demonstration if now.entries else None
-    alike = chosen is not None and chosen.joints == taught.joints and chosen.side == taught.side
+    alike = chosen is not None and chosen.joints == taught.joints
     return Curves(
-        joints=tuple(f"{taught.side}_{joint}" for joint in taught.joints),
+        joints=taught.joints,
         stamps=stamps,
         low=np.degrees(taught.rows.min(axis=0)),
         high=np.degrees(taught.rows.max(axis=0)),
@@ -155,7 +167,7 @@ def _robot(
     now: Snapshot, trace: Trace, taught: DemonstrationSet, stamps: FloatArray, nothing: FloatArray
 ) -> FloatArray:
     """Return what was measured (142, D) [deg], as far as the robot has come."""
-    columns = joint_columns(taught.side, taught.joints)
+    columns = joint_columns(taught.joints)
     if now.reproduction is not None:
         return np.degrees(now.reproduction.performance.measured_at(stamps)[:, columns])
     if now.mode is Mode.PLAYING and now.alone and trace.times:

@@ -5,20 +5,34 @@ Each ``why_not_...`` returns nothing where the thing can be done.
 
 from collections.abc import Sequence
 
-from studio.engine.skeleton import Side
+from studio.engine.arms import Arms, in_words
 from studio.engine.snapshot import Entry, Mode, Snapshot
 
+CALIBRATING = "Baxter waits while you calibrate: press Stop first."
 FOLLOWING = (Mode.WATCHING, Mode.ARMED, Mode.RECORDING)
 
 
 def fitting(now: Snapshot) -> list[Entry]:
     """Return the listed demonstrations of the chosen arm and mapping: what Train learns from."""
-    return [each for each in now.entries if _kind(each) == (now.side, now.mapping)]
+    return [each for each in now.entries if _kind(each) == (now.choices.arms, now.choices.mapping)]
 
 
 def why_not_configure(now: Snapshot) -> str:
-    """Return why arm, mapping and gate cannot be changed."""
-    return "Stop first: they stay as they are while somebody teaches." if _follows(now) else ""
+    """Return why arms, mapping, gate and hands cannot be changed."""
+    if now.mode is Mode.CALIBRATING:
+        return CALIBRATING
+    return "Stop first: this stays as it is while somebody teaches." if _follows(now) else ""
+
+
+def why_not_calibrate(now: Snapshot) -> str:
+    """Return why nobody can calibrate."""
+    if now.source is None:
+        return "Choose a source first, to stand before it."
+    if now.mode is Mode.PLAYING:
+        return "Baxter is playing: press Stop first."
+    if now.mode is Mode.CALIBRATING:
+        return ""  # the progress says enough; pressed again, it begins anew
+    return "Somebody teaches: press Stop first." if _follows(now) else ""
 
 
 def why_not_teach(now: Snapshot) -> str:
@@ -27,6 +41,8 @@ def why_not_teach(now: Snapshot) -> str:
         return "Choose a source first, in 1 Source."
     if now.mode is Mode.PLAYING:
         return "Baxter is playing: press Stop first."
+    if now.mode is Mode.CALIBRATING:
+        return CALIBRATING
     return "Somebody teaches already: press Stop first." if _follows(now) else ""
 
 
@@ -59,10 +75,13 @@ def next_step(now: Snapshot) -> str:
         for applies, words in (
             (_follows(now), "watch the gate; Stop ends it and keeps what was recorded."),
             (now.mode is Mode.PLAYING, "watch the block."),
+            (now.mode is Mode.CALIBRATING, "stand as it says; Stop gives up."),
             (learned and not done, "4 Compare: let Baxter do it alone."),
             (learned, "3 Learn: try fewer neurons, train again, and compare."),
             (bool(fitting(now)), "3 Learn: press Train."),
+            (_waits_for_stream(now), "1 Source: let a sensor send, as it says there."),
             (now.source is not None, "2 Teach: press Record."),
+            (_can_take_stream(now), "1 Source: take the live stream."),
             (True, "1 Source: choose who teaches, for example the demonstrator."),
         )
         if applies
@@ -78,9 +97,18 @@ def _follows(now: Snapshot) -> bool:
     return now.mode in FOLLOWING
 
 
-def _kind(entry: Entry) -> tuple[Side, str]:
-    return entry.demonstration.side, entry.demonstration.mapping
+def _waits_for_stream(now: Snapshot) -> bool:
+    is_live = now.source is not None and now.source.is_live
+    return is_live and now.live is not None and not now.live.is_flowing
+
+
+def _can_take_stream(now: Snapshot) -> bool:
+    return now.live is not None and now.live.is_flowing
+
+
+def _kind(entry: Entry) -> tuple[Arms, str]:
+    return entry.demonstration.arms, entry.demonstration.mapping
 
 
 def _wanted(now: Snapshot) -> str:
-    return f"the {now.side} arm with the {now.mapping} mapping"
+    return f"{in_words(now.choices.arms)} with the {now.choices.mapping} mapping"

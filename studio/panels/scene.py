@@ -6,9 +6,10 @@ import threading
 import numpy as np
 import viser
 
+from studio.engine.arms import Arms, sides_of
 from studio.engine.measures import hand_path
 from studio.engine.robot import BASE_HEIGHT
-from studio.engine.skeleton import FloatArray, Side
+from studio.engine.skeleton import SIDES, FloatArray, Side
 from studio.engine.snapshot import Snapshot
 from studio.engine.world import Scene
 from studio.panels.palette import ROBOT
@@ -28,8 +29,8 @@ class SceneView:
     def __init__(self, server: viser.ViserServer, detail: float) -> None:
         self._scene, self._detail = server.scene, detail
         self._robot: RobotView | None = None
-        self._ghost: GhostView | None = None
-        self._furnished: Side | None = None
+        self._ghosts: dict[Side, GhostView] = {}
+        self._furnished: Arms | None = None
         self._blocks: list[viser.BoxHandle] = []
         self._traced: object = None
         self._path: viser.LineSegmentsHandle | None = None
@@ -49,25 +50,26 @@ class SceneView:
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
-        if now.side != self._furnished:
-            self._furnish(now.side)
+        if now.choices.arms != self._furnished:
+            self._furnish(now.choices.arms)
         for block, pose in zip(self._blocks, now.world.block_poses, strict=True):
             block.position, block.wxyz = pose[:3], w_first(pose[3:])
         if self._robot is not None:
-            self._robot.draw(now.world.joint_positions)
-        if self._ghost is not None:
-            self._ghost.draw(now.ghost, _ghost_side(now))
+            self._robot.draw(now.world.joint_positions, now.world.fingers)
+        shown = sides_of(_ghost_arms(now))
+        for side, ghost in self._ghosts.items():
+            ghost.draw(now.ghost if side in shown else None, side)
         self._person.draw(now)
         self._trace(now)
 
     def _load(self) -> None:
         self._robot = RobotView(self._scene, self._detail)
-        self._ghost = GhostView(self._scene)
+        self._ghosts = {side: GhostView(self._scene, f"/ghost_{side}") for side in SIDES}
 
-    def _furnish(self, side: Side) -> None:
-        """Put up the desk and the blocks for the arm that is taught."""
-        self._furnished = side
-        scene = Scene(arm=side)
+    def _furnish(self, arms: Arms) -> None:
+        """Put up the desk and the blocks for what is taught."""
+        self._furnished = arms
+        scene = Scene(arms=arms)
         (x, y, z), (length, width, thick) = scene.placed_desk.position, scene.placed_desk.size
         self._scene.add_box(
             "/desk", color=_DESK_COLOR, dimensions=(length, width, thick), position=(x, y, z)
@@ -102,9 +104,10 @@ class SceneView:
         if now.reproduction is not None:
             alone = now.reproduction.performance
             measured = alone.measured_at(np.linspace(0.0, alone.duration, 142))
+            paths = [_segments(hand_path(measured, side)) for side in sides_of(alone.arms)]
             self._path = self._scene.add_line_segments(
                 "/hand_path",
-                _segments(hand_path(measured, alone.side) + WORLD_BASE),
+                np.concatenate(paths) + WORLD_BASE,
                 colors=ROBOT,
                 thickness=0.008,
                 thickness_units="world",
@@ -123,8 +126,8 @@ def _set_the_stage(server: viser.ViserServer) -> None:
     scene.add_grid("/floor", width=10.0, height=10.0, shadow_opacity=0.25)
 
 
-def _ghost_side(now: Snapshot) -> Side:
-    return now.entries[now.chosen].demonstration.side if now.entries else now.side
+def _ghost_arms(now: Snapshot) -> Arms:
+    return now.entries[now.chosen].demonstration.arms if now.entries else now.choices.arms
 
 
 def _segments(points: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""1 Source: who teaches (a sample, a file, the demonstrator), with which arm, how mapped."""
+"""1 Source: who teaches (a sample, a file, the demonstrator, a live stream), and how."""
 
 from pathlib import Path
 
@@ -6,23 +6,13 @@ import viser
 
 from studio.engine import commands
 from studio.engine.errors import FileError
-from studio.engine.gate import GateMode
 from studio.engine.resources import samples_folder
-from studio.engine.retarget import Mapping
-from studio.engine.skeleton import SIDES
 from studio.engine.snapshot import Snapshot, SourceStatus
-from studio.panels import markup
-from studio.panels.inputs import Post, on_choice, show_value
-from studio.panels.readiness import why_not_configure
+from studio.panels import markup, streams
+from studio.panels.calibration import CalibrationPanel
+from studio.panels.inputs import Post
+from studio.panels.settings import SettingsPanel
 from studio.panels.uploads import Uploads, shown_name
-
-MAPPINGS: dict[Mapping, str] = {"exact": "exact: s0, s1, e0, e1", "paper": "paper: s0, s1, e1"}
-GATES: dict[GateMode, str] = {"sequence": "Lasso, Open, Closed", "open": "open, no signs"}
-_MAPPING_NOTES: dict[Mapping, str] = {
-    "exact": "Baxter's upper arm and forearm point where the person's do.",
-    "paper": "e0 stays 0, so the forearm swings in one plane only: its direction is 48° off in the "
-    "median of real recordings.",
-}
 
 
 class SourcePanel:
@@ -30,33 +20,23 @@ class SourcePanel:
 
     def __init__(self, gui: viser.GuiApi, post: Post, uploads: Uploads) -> None:
         self._post, self._uploads = post, uploads
-        self._drawn: object = None
         self._now = gui.add_html("")
         self._add_sources(gui)
+        self._add_live(gui)
         self._problem = gui.add_html("", visible=False)
         gui.add_divider()
-        self._side = gui.add_dropdown("Arm", SIDES)
-        self._mapping = gui.add_dropdown("Mapping", tuple(MAPPINGS.values()))
-        self._gate = gui.add_dropdown("Gate", tuple(GATES.values()))
-        self._settings = (self._side, self._mapping, self._gate)
-        for control in self._settings:
-            on_choice(control, self._configure)
-        self._notes = gui.add_html("")
+        gui.add_html(markup.block("<b>How Baxter follows</b>"))
+        self._settings = SettingsPanel(gui, post)
+        gui.add_divider()
+        self._calibration = CalibrationPanel(gui, post)
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
         self._now.content = described(now.source)
-        # Only what has changed, or has been refused: a choice just made is on its way.
-        settings = (now.side, now.mapping, now.gate_mode, now.message.number)
-        if settings != self._drawn:
-            self._drawn = settings
-            show_value(self._side, now.side)
-            show_value(self._mapping, MAPPINGS[now.mapping])
-            show_value(self._gate, GATES[now.gate_mode])
-        refusal = why_not_configure(now)
-        for control in self._settings:
-            control.disabled = bool(refusal)
-        self._notes.content = markup.reasons([refusal]) + markup.note(_MAPPING_NOTES[now.mapping])
+        self._take_live.visible = self._live.visible = now.live is not None
+        self._live.content = streams.described(now.live)
+        self._settings.draw(now)
+        self._calibration.draw(now)
 
     def _add_sources(self, gui: viser.GuiApi) -> None:
         demonstrator = gui.add_button(
@@ -72,10 +52,20 @@ class SourcePanel:
             load.on_click(lambda _: self._post(commands.UseFile(samples[self._sample.value])))
         upload = gui.add_upload_button(
             "Upload a file",
-            hint="Skeletons (JSONL, kinect2-socket JSON, tables) or a recording (MCAP)",
+            hint="Skeletons (Kinect, NTU RGB+D, MediaPipe, tables, JSONL) or a recording (MCAP)",
             icon=viser.Icon.UPLOAD,
         )
         upload.on_upload(self._receive)
+
+    def _add_live(self, gui: viser.GuiApi) -> None:
+        self._take_live = gui.add_button(
+            "Take the live stream",
+            hint="Whoever sends: a webcam, a Kinect's program, a recording that is played",
+            icon=viser.Icon.BROADCAST,
+            visible=False,
+        )
+        self._take_live.on_click(lambda _: self._post(commands.UseLive()))
+        self._live = gui.add_html("", visible=False)
 
     def _receive(self, event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
         file = event.target.value
@@ -86,15 +76,6 @@ class SourcePanel:
         else:
             self._problem.visible = False
             self._post(commands.UseFile(path, shown_name(file.name)))
-
-    def _configure(self) -> None:
-        self._post(
-            commands.Configure(
-                self._side.value,
-                next(key for key, label in MAPPINGS.items() if label == self._mapping.value),
-                next(key for key, label in GATES.items() if label == self._gate.value),
-            )
-        )
 
 
 def sample_files() -> dict[str, Path]:
@@ -108,6 +89,8 @@ def described(source: SourceStatus | None) -> str:
     """Return the source in words."""
     if source is None:
         return markup.block("<b>No source yet.</b> Who teaches?")
+    if source.is_live:
+        return markup.block(f"Source: <b>{markup.text(source.name)}</b>, until Stop")
     hands = "with hand states" if source.has_hand_states else "without hand states: open the gate"
     figures = f"{source.frames} frames, {source.seconds:.1f} s, {hands}"
     return markup.block(f"Source: <b>{markup.text(source.name)}</b><br>{markup.text(figures)}")

@@ -1,8 +1,11 @@
 """Always in sight: what goes on, Stop, the newest message, and what to do next."""
 
+import math
+
 import viser
 
 from studio.engine import commands
+from studio.engine.engage import COMING
 from studio.engine.snapshot import Mode, Snapshot
 from studio.panels import markup
 from studio.panels.inputs import Post
@@ -16,6 +19,7 @@ _PILLS: dict[Mode, tuple[str, str, Color]] = {
     Mode.ARMED: ("▲", "ARMED", (0, 120, 88)),
     Mode.RECORDING: ("●", "RECORDING", (200, 30, 40)),
     Mode.PLAYING: ("▶", "PLAYING", (28, 100, 180)),
+    Mode.CALIBRATING: ("◎", "CALIBRATING", (140, 85, 20)),
 }
 
 
@@ -82,10 +86,25 @@ def _message(words: str) -> str:
 def _beside(now: Snapshot) -> tuple[str, ...]:
     if now.mode is Mode.IDLE:
         return ()
-    clock = f"{now.time:.0f} of {now.duration:.0f} s"
+    # A live stream has no end to tell of.
+    clock = f"{now.time:.0f} of {now.duration:.0f} s" if now.duration else f"{now.time:.0f} s"
     if now.mode is Mode.PLAYING:
         return ("Baxter alone" if now.alone else "a demonstration"), clock
-    return ("Baxter follows" if _followed(now) else "Baxter waits"), clock
+    if now.calibrating is not None:
+        return f"{100 * now.calibrating.share:.0f} %", clock
+    if now.held == COMING:
+        return "Baxter comes to you", clock
+    if not _followed(now):
+        return "Baxter waits", clock
+    behind = f"{math.degrees(now.lag.angle):.0f}°, {now.lag.seconds:.1f} s behind"
+    return "Baxter follows", behind, clock + _latency(now)
+
+
+def _latency(now: Snapshot) -> str:
+    """Return how long the newest frames were on their way to a command, where they come live."""
+    total = None if now.live is None else now.live.latency.total
+    is_live = now.source is not None and now.source.is_live
+    return f", {1000 * total.p50:.0f} ms to command" if is_live and total else ""
 
 
 def _followed(now: Snapshot) -> bool:

@@ -56,12 +56,12 @@ def listed(now: Snapshot) -> str:
     rows = []
     for number, entry in enumerate(now.entries):
         shown = entry.demonstration
-        mark = "▶ " if number == now.chosen else ""
+        mark = "▶\N{NO-BREAK SPACE}" if number == now.chosen else ""
         rows.append(
             (
                 f"{mark}{number + 1}",
                 shown.name,
-                f"{shown.side}, {shown.mapping}",
+                f"{shown.arms}, {shown.mapping}",
                 f"{shown.duration:.1f}",
                 "down" if entry.block_down else "stands",
             )
@@ -73,7 +73,7 @@ def listed(now: Snapshot) -> str:
 def _hint(now: Snapshot) -> str:
     if now.mode in FOLLOWING and now.recorded:
         return markup.note(f"{now.recorded} samples recorded so far; Stop keeps them.")
-    if now.source is not None and not now.source.has_hand_states and now.gate_mode == "sequence":
+    if now.source is not None and not now.source.has_hand_states and now.choices.gate == "sequence":
         return markup.note(
             "This source tells no hand states, so its gate never opens: choose the gate "
             "“open, no signs” in 1 Source."

@@ -11,9 +11,13 @@ from playwright.sync_api import Locator, Page, expect
 from studio.engine.clock import LiveLoop
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode
+from studio.engine.sources import write_skeletons
+from studio.engine.sources.recording import from_skeletons
 from studio.panels.app import App
 from tests.browser.conftest import PATIENCE
+from tests.engine.people import stand
 
+CALIBRATE = "Calibrate (stand with arms hanging)"
 FAST, SLOW = 8.0, 0.25  # times real time: to get through, and to catch what passes
 
 expect.set_options(timeout=PATIENCE)
@@ -112,3 +116,30 @@ def test_a_broken_file_and_stop(studio: Studio, tmp_path: Path) -> None:
     studio.shows("nothing armed")
     now = studio.loop.session.snapshot
     assert (now.mode, now.entries) == (Mode.IDLE, ())
+
+
+@pytest.mark.parametrize("studio", [1.0], indirect=True)
+def test_choose_both_arms_with_fingers_and_calibrate(studio: Studio, tmp_path: Path) -> None:
+    expect(studio.button(CALIBRATE)).to_be_disabled()
+    standing = tmp_path / "standing.jsonl"
+    write_skeletons(standing, from_skeletons(stand(0.1, frames=240), "made up", "test"))
+    studio.page.locator("input[type=file]").set_input_files(standing)
+    studio.shows("Source: standing.jsonl")
+    studio.press(CALIBRATE)
+    studio.shows("CALIBRATING")
+    studio.shows("✔ Calibrated: torso leans 6°: corrected")
+    studio.press("Forget the calibration")
+    studio.shows("Not calibrated")
+
+    for box, words in ((0, "what your right arm does"), (1, "opens and closes Baxter's fingers")):
+        studio.page.get_by_role("checkbox").nth(box).check()
+        studio.shows(words)
+    now = studio.loop.session.snapshot
+    assert now.choices.mirrored
+    assert len(now.world.fingers) == 4
+    studio.open_step("2 Teach")
+    studio.press("Watch only")
+    studio.shows("WATCHING")
+    studio.open_step("1 Source")
+    studio.shows("Stop first: this stays as it is")
+    expect(studio.page.get_by_role("checkbox").first).to_be_disabled()

@@ -1,15 +1,27 @@
 """Snapshots of one lesson from beginning to end, as a real session gives them."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from studio.engine import commands
+from studio.engine.choices import Choices
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.teaching import LearnerSettings
+from studio.panels import mesh_cache
 
 Lesson = dict[str, Snapshot]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def mesh_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Light meshes are made once for all tests, and not in the user's own cache."""
+    folder = tmp_path_factory.mktemp("meshes")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(mesh_cache, "cache_folder", lambda: folder)
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -39,7 +51,8 @@ def _lived_through(session: Session):
     yield "sourced", do(commands.UseDemonstrator())
     yield "recording", do(commands.Record())
     yield "lasso", until(lambda now: now.gate is not None and now.gate.lit == 1)
-    yield "armed", until(lambda now: now.gate is not None and now.gate.armed)
+    yield "coming", until(lambda now: now.gate is not None and now.gate.armed)
+    yield "armed", until(lambda now: not now.held)
     yield "recorded", until(lambda now: now.mode is Mode.IDLE)
     yield "trained on one", do(commands.Train(LearnerSettings("rbf", 20)))
     do(commands.UseDemonstrator(), commands.Record())
@@ -50,4 +63,4 @@ def _lived_through(session: Session):
     yield "played", until(lambda now: now.mode is Mode.IDLE)
     yield "replaying", do(commands.PlayDemonstration())
     yield "stopped", do(commands.Stop())
-    yield "open", do(commands.Configure("right", "paper", "open"), commands.Watch())
+    yield "open", do(commands.Configure(Choices("right", "paper", "open")), commands.Watch())

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from studio.engine import commands
+from studio.engine.choices import Choices
 from studio.engine.clock import LiveLoop
 from studio.engine.session import Session
 from studio.panels.app import App
@@ -67,7 +68,7 @@ def test_all_is_drawn_from_teaching_to_playing_without_a_browser(loop) -> None:
         session.post(commands.Train(LearnerSettings("rbf", 20)))
         session.post(commands.PlayReproduction())
         until(lambda now: now.reproduction is not None, "played")
-        session.post(commands.Configure("right", "paper", "open"))
+        session.post(commands.Configure(Choices("right", "paper", "open")))
         session.post(commands.Watch())
         until(lambda now: now.gate is not None and now.gate.armed, "armed")
         session.post(commands.Stop())

@@ -38,17 +38,49 @@ def test_as_many_steps_are_lit_as_the_gate_believes(lesson, lit: int, expected) 
 
 
 def test_the_time_held_counts_for_the_awaited_sign_only(lesson) -> None:
-    def shares(seen: HandState) -> list[float]:
-        status = GateStatus(False, 1, "", "", seen, 0.15, 0.3)
-        return [step.share for step in view(replace(lesson["lasso"], gate=status)).steps]
+    status = GateStatus(False, 1, "", "", HandState.OPEN, 0.15, 0.3)
+    shown = view(replace(lesson["lasso"], gate=status))
+    assert [step.share for step in shown.steps] == [1.0, 0.5, 0.0]
+    assert shown.seen == "The hand: open, seen for 0.1 of 0.3 s"
 
-    assert shares(HandState.OPEN) == [1.0, 0.5, 0.0]
-    assert shares(HandState.LASSO) == [1.0, 0.0, 0.0]
+
+def test_the_confidence_is_shown_where_a_source_tells_one(lesson) -> None:
+    status = GateStatus(False, 0, "", "", HandState.NOT_TRACKED, 0.0, 0.3, confidence=0.42)
+    shown = view(replace(lesson["lasso"], gate=status))
+    assert shown.seen == "The hand: not tracked, confidence 0.42"
+    assert shown.seen in drawn(shown)
+
+
+@pytest.mark.parametrize(("left", "shown"), [(None, "Baxter follows"), (0.5, "disarms in 0.5 s")])
+def test_an_armed_gate_says_how_long_it_stays_so(lesson, left: float | None, shown: str) -> None:
+    detail = "armed: left hand unseen for 1.5 s; disarms in 0.5 s"
+    status = GateStatus(True, 3, "", detail, HandState.UNKNOWN, 0.0, 0.5, left=left)
+    assert shown in view(replace(lesson["armed"], gate=status, held="")).reason
 
 
 def test_an_armed_robot_that_does_not_follow_says_why(lesson) -> None:
     shown = view(replace(lesson["armed"], held="left wrist not tracked"))
     assert (shown.headline, shown.reason) == ("Armed, but held", "left wrist not tracked")
+
+
+def test_a_robot_on_its_way_and_one_that_is_slowed_say_so(lesson) -> None:
+    coming = view(lesson["coming"])
+    assert (coming.headline, coming.reason) == ("Armed", "Baxter comes to you, slowly at first")
+    near = "left forearm is 4 cm from the desk: slowed"
+    slowed = view(replace(lesson["armed"], guarded=near))
+    assert (slowed.headline, slowed.reason) == ("Armed, slowed", near)
+    stopped = near.replace("slowed", "stopped")
+    held = view(replace(lesson["armed"], held=stopped, guarded=stopped))
+    assert (held.headline, held.reason) == ("Armed, but held", stopped)
+    alone = view(replace(lesson["playing"], guarded=near))
+    assert (alone.headline, alone.reason) == ("Too near", near)
+    opened = view(replace(lesson["open"], held="", guarded=near))
+    assert (opened.headline, opened.reason) == ("Armed without signs, slowed", near)
+
+
+def test_only_what_changes_often_keeps_its_height(lesson) -> None:
+    assert "min-height" not in drawn(view(lesson["start"]))
+    assert "min-height" in drawn(view(lesson["lasso"]))
 
 
 def test_an_open_gate_asks_for_no_signs(lesson) -> None:

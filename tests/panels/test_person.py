@@ -1,55 +1,53 @@
-"""The person stands beside the robot, on the floor, and faces the way it faces."""
+"""The person is drawn where they stand, and as surely as they are seen."""
+
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings, strategies
-from hypothesis.extra import numpy as arrays
+import viser
 
-from studio.engine.skeleton import Hand, HandState, Joint, Skeleton, Tracking, all_tracked
+from studio.engine.skeleton import (
+    FloatArray,
+    Hand,
+    HandState,
+    Joint,
+    Skeleton,
+    Tracking,
+    all_tracked,
+)
+from studio.engine.snapshot import SourceStatus
 from studio.engine.sources.demonstrator import demonstrate
 from studio.panels.palette import HAND
-from studio.panels.person import SPOT, Placement, hand_words, joint_colors
-
-coordinates = strategies.floats(-5.0, 5.0)
-points = arrays.arrays(np.float64, (25, 3), elements=coordinates)
+from studio.panels.person import PersonView, hand_words, joint_colors
 
 
-@given(points)
-@settings(deadline=None, derandomize=True)
-def test_anybody_stands_on_the_floor_beside_the_robot(positions) -> None:
-    skeleton = Skeleton(0.0, positions, all_tracked())
-    placed = Placement.of(skeleton).place(positions)
-    assert placed[:, 2].min() == pytest.approx(0.0, abs=1e-12)
-    np.testing.assert_allclose(placed[Joint.SPINE_BASE, :2], SPOT, atol=1e-12)
+@pytest.fixture
+def view() -> Iterator[PersonView]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    try:
+        yield PersonView(server.scene)
+    finally:
+        server.stop()
 
 
-@given(points)
-@settings(deadline=None, derandomize=True)
-def test_nobody_is_stretched_or_mirrored(positions) -> None:
-    placed = Placement.of(Skeleton(0.0, positions, all_tracked())).place(positions)
-    before, after = positions - positions[0], placed - placed[0]
-    np.testing.assert_allclose(after @ after.T, before @ before.T, atol=1e-9)
-    np.testing.assert_allclose(np.linalg.det(after[1:4]), np.linalg.det(before[1:4]), atol=1e-9)
-
-
-def test_who_faces_the_sensor_faces_the_robots_way() -> None:
-    positions = demonstrate(seed=3)[0].positions
-    placed = Placement.of(demonstrate(seed=3)[0]).place(positions)
-    left = placed[Joint.SHOULDER_LEFT] - placed[Joint.SHOULDER_RIGHT]
-    up = placed[Joint.HEAD] - placed[Joint.SPINE_BASE]
-    forward = np.cross(left, up)
-    assert forward[0] > 0.9 * np.linalg.norm(forward)  # the robot looks along x
-    assert placed[Joint.HEAD, 2] > 1.4
-    assert placed[Joint.FOOT_LEFT, 2] < 0.15
-
-
-def test_a_placement_follows_one_person() -> None:
-    """Placed by the first frame; a step aside later is seen as a step."""
+def test_a_live_persons_steps_are_seen_as_steps(lesson, view: PersonView) -> None:
+    """Whom a live stream shows stays placed, however many frames have come; others are not."""
     take = demonstrate(seed=3)
-    placement = Placement.of(take[0])
-    moved = take[0].positions + np.array([0.5, 0.0, 0.0])  # to the right of who faces the sensor
-    step = placement.place(moved) - placement.place(take[0].positions)
-    np.testing.assert_allclose(step, np.tile((0.0, -0.5, 0.0), (25, 1)), atol=1e-12)
+    aside = replace(take[1], positions=take[0].positions + np.array([0.5, 0.0, 0.0]))
+    live = SourceStatus("live stream", 1, 0.0, True, is_live=True)
+
+    def drawn(skeleton: Skeleton, source: SourceStatus) -> FloatArray:
+        view.draw(replace(lesson["sourced"], source=source, skeleton=skeleton))
+        return np.array(view._joints.batched_positions)
+
+    first = drawn(take[0], live)
+    then = drawn(aside, replace(live, frames=2, seconds=1.0))
+    np.testing.assert_allclose(then - first, np.tile((0.0, -0.5, 0.0), (25, 1)), atol=1e-6)
+    other = drawn(replace(aside, body_id="other"), replace(live, frames=3))
+    np.testing.assert_allclose(other, first, atol=1e-6)
+    drawn(take[0], live)
+    np.testing.assert_allclose(drawn(aside, replace(live, name="a file")), first, atol=1e-6)
 
 
 def test_guessed_joints_are_pale() -> None:

@@ -5,13 +5,29 @@ import pytest
 from hypothesis import given, settings, strategies
 from hypothesis.extra import numpy as arrays
 
+from studio.engine.arms import learned_joints
 from studio.engine.demonstration import SAMPLES, resample
-from studio.panels.plots import SMALLEST_RANGE, JointPlot, Trace, axis_range, curves_of
+from studio.panels.plots import (
+    SMALLEST_RANGE,
+    JointPlot,
+    Trace,
+    axis_range,
+    curves_of,
+    shown_columns,
+)
 
 
 def test_nothing_taught_nothing_shown(lesson) -> None:
     assert curves_of(lesson["start"], Trace()) is None
     assert curves_of(lesson["recording"], Trace()) is None
+
+
+def test_of_two_arms_one_is_shown_and_of_one_arm_all() -> None:
+    both = learned_joints("both", "exact")
+    for side, columns in (("left", [0, 1, 2, 3]), ("right", [4, 5, 6, 7])):
+        assert shown_columns(both, side) == columns
+        for arms in ("left", "right"):
+            assert shown_columns(learned_joints(arms, "paper"), side) == [0, 1, 2]
 
 
 def test_all_series_of_a_plot_are_equally_long_and_few(lesson) -> None:

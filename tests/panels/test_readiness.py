@@ -5,12 +5,14 @@ from pathlib import Path
 import pytest
 
 from studio.engine import commands
+from studio.engine.choices import Choices
 from studio.engine.session import Session
 from studio.engine.teaching import LearnerSettings
 from studio.panels.readiness import (
     described,
     fitting,
     next_step,
+    why_not_calibrate,
     why_not_configure,
     why_not_play,
     why_not_replay,
@@ -19,12 +21,14 @@ from studio.panels.readiness import (
 )
 
 ASKED = {
-    why_not_configure: commands.Configure("left", "exact", "sequence"),
+    why_not_calibrate: commands.Calibrate(),
+    why_not_configure: commands.Configure(Choices("left", "exact", "sequence")),
     why_not_teach: commands.Watch(),
     why_not_train: commands.Train(LearnerSettings()),
     why_not_play: commands.PlayReproduction(),
     why_not_replay: commands.PlayDemonstration(),
 }
+LATER = {why_not_train, why_not_play, why_not_replay}
 
 
 @pytest.mark.parametrize("why_not", ASKED, ids=lambda each: each.__name__)
@@ -41,12 +45,12 @@ def test_a_panel_refuses_at_the_start_what_the_session_refuses(why_not, tmp_path
 @pytest.mark.parametrize(
     ("state", "blocked"),
     [
-        ("start", {why_not_teach, why_not_train, why_not_play, why_not_replay}),
-        ("sourced", {why_not_train, why_not_play, why_not_replay}),
+        ("start", {why_not_calibrate, why_not_teach, *LATER}),
+        ("sourced", LATER),
         ("armed", set(ASKED)),
         ("recorded", {why_not_play}),
         ("trained", set()),
-        ("playing", {why_not_teach}),
+        ("playing", {why_not_calibrate, why_not_teach}),
         ("played", set()),
     ],
 )

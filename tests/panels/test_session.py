@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from studio.engine import commands
+from studio.engine.choices import Choices
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode
 
@@ -24,7 +25,7 @@ def test_a_refused_command_stops_nothing(session: Session, tmp_path: Path) -> No
     broken.write_text("{")
     refused = (
         commands.UseFile(broken),
-        commands.Configure("right", "exact", "sequence"),
+        commands.Configure(Choices("right", "exact", "sequence")),
         commands.Choose(7),
     )
     for command in refused:

@@ -4,7 +4,8 @@ import re
 
 from studio.panels.compare import compared
 from studio.panels.learn import learned
-from studio.panels.source import GATES, MAPPINGS, described, sample_files
+from studio.panels.settings import GATES, MAPPINGS, WRISTS
+from studio.panels.source import described, sample_files
 from studio.panels.teach import listed
 
 
@@ -45,7 +46,7 @@ def test_the_list_tells_what_each_demonstration_is(lesson) -> None:
     head, first, second = cells(listed(lesson["trained"]))
     assert head[-2:] == ["s", "block"]
     entry = lesson["trained"].entries[1]
-    assert second[0] == "▶ 2"  # chosen, by a sign
+    assert second[0] == "▶\N{NO-BREAK SPACE}2"  # chosen, by a sign
     assert first[0] == "1"
     assert second[1:3] == [entry.demonstration.name, "left, exact"]
     assert second[3:] == [f"{entry.demonstration.duration:.1f}", "down"]
@@ -61,7 +62,7 @@ def test_the_source_tells_its_size_and_its_hands(lesson) -> None:
 
 
 def test_choices_have_names_of_their_own() -> None:
-    for labels in (MAPPINGS, GATES):
+    for labels in (MAPPINGS, GATES, WRISTS):
         assert len(set(labels.values())) == len(labels)
 
 
