@@ -11,10 +11,12 @@ import tyro
 
 import studio
 from studio.console import as_json_text, log, only_ours_on_stdout
+from studio.convert_command import Convert
 from studio.engine.activity import next_recording_path
 from studio.engine.errors import StudioError
 from studio.engine.experiment import Setup, run_experiment
-from studio.engine.inspection import inspect_file
+from studio.engine.hands import HandOptions
+from studio.engine.live.access import Address
 from studio.engine.mcap_file import write_recording
 from studio.engine.recording import Recording
 from studio.engine.report import as_json, as_text
@@ -22,11 +24,35 @@ from studio.engine.resources import recordings_folder
 from studio.engine.sources import SkeletonRecording
 from studio.engine.sources.demonstrator import demonstrate
 from studio.engine.teaching import LearnerName, LearnerSettings
+from studio.export_command import Export
+from studio.inspect_command import Inspect
+from studio.live_commands import Listen, Play
+from studio.stream_token import stream_token
 from studio.sweep_command import Sweep
+from studio.webcam_command import Webcam
 
 Files = Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="FILE...")]
 Mapping = Literal["exact", "paper"]
 Interpolation = Literal["even", "random"]
+GripperFlag = Annotated[
+    bool,
+    tyro.conf.arg(
+        help="Put fingers on the hands: the person's right hand, closed, closes those of the arm "
+        "that is taught."
+    ),
+]
+# The help is that of --no-browser, the only way to say it.
+BrowserFlag = Annotated[
+    bool,
+    tyro.conf.arg(help="Only print the page's address, open no browser.", help_behavior_hint=""),
+]
+WristFlag = Annotated[
+    Literal["zero", "level", "follow"],
+    tyro.conf.arg(
+        help="zero: straight, as in the paper. level: the hand stays level. follow: it points "
+        "where the person's hand does."
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -39,15 +65,22 @@ class Serve:
     """Port to listen on; the next free one if it is taken."""
     recordings: Path | None = None
     """Folder for new recordings. In a clone its recordings folder, else the user's data folder."""
-    browser: bool = True
-    """Open a browser, if there is one."""
+    browser: BrowserFlag = True
+    listen: str | None = None
+    """HOST:PORT to take live streams at, 127.0.0.1:8765 or the next free port by default. Beyond
+    this machine it needs a token."""
+    token: str | None = None
+    """What publishers have to present: ws://...?token=TOKEN or Authorization: Bearer TOKEN. Better
+    set STUDIO_TOKEN: other users of this machine can read what is typed here."""
 
     def run(self) -> int:
         """Serve until interrupted."""
-        from studio.live import serve_studio  # noqa: PLC0415 - headless commands need no viser
+        from studio.live import Streams, serve_studio  # noqa: PLC0415 - headless needs no viser
 
         folder = self.recordings or recordings_folder()
-        serve_studio(self.host, self.port, folder, self.browser)
+        address = None if self.listen is None else Address.parse(self.listen)
+        streams = Streams(address, stream_token(self.token))
+        serve_studio(self.host, self.port, folder, self.browser, streams)
         return 0
 
 
@@ -72,6 +105,8 @@ class Demo:
     """Seed of the demonstrator; the same seed gives the same numbers."""
     interpolation: Interpolation = "even"
     """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
+    gripper: GripperFlag = False
+    wrist: WristFlag = "zero"
     save: Path | None = None
     """Folder to keep the demonstrations in, as MCAP recordings."""
     port: int = 8080
@@ -84,7 +119,13 @@ class Demo:
         if self.demonstrations < 1:
             raise StudioError(f"--demonstrations: one or more, not {self.demonstrations}")
         setup = Setup(
-            "left", self.mapping, "sequence", self._learner(), self.interpolation, self.seed
+            "left",
+            self.mapping,
+            "sequence",
+            self._learner(),
+            self.interpolation,
+            self.seed,
+            hands=HandOptions(self.gripper, self.wrist),
         )
         if self.headless:
             return self._run_experiment(setup)
@@ -109,8 +150,13 @@ class Teach:
 
     files: Files
     """Skeleton files in any supported format, or MCAP recordings of the studio."""
-    arm: Literal["left", "right"] = "left"
-    """The arm that is followed. The gate is always the left hand's."""
+    arm: Literal["left", "right", "both"] = "left"
+    """The robot's arm that follows the person's, or both. The gate is always the left hand's."""
+    mirror: bool = False
+    """As in a mirror: the robot's left arm follows the person's right one, and the other way."""
+    calibrate_at: float | None = None
+    """Seconds into each file at which the person stands still for 2 s, both arms hanging: corrects
+    how the torso seems to lean."""
     mapping: Mapping = "exact"
     """exact: all four joints. paper: s0, s1, e1 with e0 = 0; the forearm is then off by 48 degrees
     (median of real recordings)."""
@@ -124,6 +170,8 @@ class Teach:
     fails."""
     interpolation: Interpolation = "even"
     """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
+    gripper: GripperFlag = False
+    wrist: WristFlag = "zero"
     save: Path | None = None
     """Folder to keep what was followed in, as MCAP recordings."""
     json: bool = False
@@ -134,24 +182,17 @@ class Teach:
         if not self.files:
             raise StudioError("teach from which files? Give one or more: studio teach FILE...")
         learner = LearnerSettings(self.learner, self.neurons)
-        setup = Setup(self.arm, self.mapping, self.gate, learner, self.interpolation)
+        setup = Setup(
+            self.arm,
+            self.mapping,
+            self.gate,
+            learner,
+            self.interpolation,
+            mirrored=self.mirror,
+            calibrate_at=self.calibrate_at,
+            hands=HandOptions(self.gripper, self.wrist),
+        )
         return _experiment(self.files, setup, self.json, self.save)
-
-
-@dataclass(frozen=True)
-class Inspect:
-    """Say what is in a skeleton file, and what in it would hold the gate or the arm."""
-
-    file: Annotated[Path, tyro.conf.Positional]
-    """A skeleton file in any supported format."""
-    json: bool = False
-    """Print one JSON object."""
-
-    def run(self) -> int:
-        """Inspect the file."""
-        inspection = inspect_file(self.file)
-        print(as_json_text(inspection.to_dict()) if self.json else inspection)
-        return 0
 
 
 Command = (
@@ -160,8 +201,24 @@ Command = (
     | Annotated[Teach, tyro.conf.subcommand("teach")]
     | Annotated[Sweep, tyro.conf.subcommand("sweep")]
     | Annotated[Inspect, tyro.conf.subcommand("inspect")]
+    | Annotated[Convert, tyro.conf.subcommand("convert")]
+    | Annotated[Export, tyro.conf.subcommand("export")]
+    | Annotated[Webcam, tyro.conf.subcommand("webcam")]
+    | Annotated[Listen, tyro.conf.subcommand("listen")]
+    | Annotated[Play, tyro.conf.subcommand("play")]
 )
-COMMANDS = ("serve", "demo", "teach", "sweep", "inspect")
+COMMANDS = (
+    "serve",
+    "demo",
+    "teach",
+    "sweep",
+    "inspect",
+    "convert",
+    "export",
+    "webcam",
+    "listen",
+    "play",
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -172,7 +229,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         return
     if not given or (given[0] not in COMMANDS and given[0] not in ("-h", "--help")):
         given.insert(0, "serve")
-    command: Serve | Demo | Teach | Sweep | Inspect = tyro.cli(
+    command: Command = tyro.cli(
         Command,
         prog="studio",
         description=studio.__doc__,
@@ -188,7 +245,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except (StudioError, OSError) as error:  # of the system's: a full disk, a closed door
         print(f"studio: {error}", file=sys.stderr)
         if getattr(command, "json", False):
-            files: dict[str, Any] = {} if isinstance(command, Inspect) else {"files": []}
+            teaches = isinstance(command, Demo | Teach | Sweep)
+            files: dict[str, Any] = {"files": []} if teaches else {}
             print(as_json_text(files | {"error": str(error)}))
         status = 1
     except KeyboardInterrupt:

@@ -38,8 +38,10 @@ class Sweep:
     of Gaussians in each of two maps; it keeps no time, and takes long). spline, gp, kernel-ridge,
     mlp, gmr, dmp, promp have none: with one of them, or with all, every learner named is tuned by
     leaving out one demonstration at a time, and compared."""
-    arm: Literal["left", "right"] = "left"
-    """The arm that was taught."""
+    arm: Literal["left", "right", "both"] = "left"
+    """The arm that was taught, or both."""
+    mirror: bool = False
+    """It was taught as in a mirror."""
     mapping: Literal["exact", "paper"] = "exact"
     """The mapping that it was taught with."""
     gate: Literal["sequence", "open"] = "sequence"
@@ -57,7 +59,13 @@ class Sweep:
         """Measure, print, and write the page."""
         networks, compared = self._learners()
         checked_neurons(self.neurons)
-        setup = Setup(self.arm, self.mapping, self.gate, interpolation=self.interpolation)
+        setup = Setup(
+            self.arm,
+            self.mapping,
+            self.gate,
+            interpolation=self.interpolation,
+            mirrored=self.mirror,
+        )
         given = self.recordings or tuple(sorted(samples_folder().glob("*.mcap")))
         with only_ours_on_stdout():
             taught = _taught(given, setup)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from studio.cli import main
+from studio.cli import COMMANDS, main
 from studio.engine.resources import samples_folder
 from studio.engine.skeleton import HandState
 from studio.engine.sources import write_skeletons
@@ -78,6 +78,23 @@ def test_teaching_from_the_samples(tmp_path: Path) -> None:
     assert json.loads(again.stdout)["files"][0]["armed_frames"] > 150
 
 
+def test_both_arms_are_taught_in_a_mirror_and_calibrated_in_words(here) -> None:
+    sample = samples_folder() / "demonstration-1.mcap"
+    status, printed, _ = here("teach", sample, "--arm", "both", "--mirror", "--json")
+    found = json.loads(printed)
+    assert status == 0
+    assert found["arm"] == "both"
+    assert found["joints"] == [
+        f"{side}_{joint}" for side in ("left", "right") for joint in ("s0", "s1", "e0", "e1")
+    ]
+    assert "followed anew" in found["files"][0]["format"]
+    for start, words in (("0", "you moved"), ("-1", "0 s or more into the file, not at -1.0 s")):
+        status, _, said = here("teach", sample, "--calibrate-at", start)
+        assert status == 1
+        assert f"{sample}, {start} s into it: " in said
+        assert words in said
+
+
 def test_where_nothing_arms() -> None:
     done = studio("teach", samples_folder() / "never-arms.jsonl", "--json")
     assert done.returncode == 1
@@ -102,11 +119,19 @@ def test_inspect_tells_what_is_in_a_file(tmp_path: Path) -> None:
     found = json.loads(studio("inspect", samples_folder() / "never-arms.jsonl", "--json").stdout)
     assert set(found) == {
         *("format", "frames", "seconds", "bodies", "left_hand", "right_hand", "tracking"),
-        "problems",
+        *("duplicate_frames", "dropped_frames", "gate", "mirrored", "lean_deg"),
+        *("motion", "person", "problems", "recorded"),
     }
     assert found["left_hand"]["closed"] > 0
-    recording = studio("inspect", samples_folder() / "demonstration-1.mcap", "--json")
-    assert json.loads(recording.stdout)["format"] == "studio mcap 1"
+    assert found["gate"]["armed"] == []
+    asked = ("--arm", "both", "--mapping", "paper", "--json")
+    told = json.loads(studio("inspect", samples_folder() / "demonstration-1.mcap", *asked).stdout)
+    assert told["format"] == "studio mcap 1"
+    assert told["recorded"]["gate"]["armed_frames"] > 100
+    assert [(arm["arm"], arm["mapping"]) for arm in told["motion"]] == [
+        ("left", "paper"),
+        ("right", "paper"),
+    ]
 
 
 def broken_files(folder: Path) -> list[Path]:
@@ -139,12 +164,17 @@ def test_broken_files_give_words_and_no_traceback(tmp_path: Path, here) -> None:
 
 
 @pytest.mark.parametrize(
-    "command", [(), ("demo",), ("teach",), ("sweep",), ("inspect",), ("serve",)]
+    "command", [(), *((name,) for name in COMMANDS)], ids=lambda each: " ".join(each) or "none"
 )
 def test_help_reads(command: tuple[str, ...], here) -> None:
     status, printed, _ = here(*command, "--help")
     assert status == 0
     assert "usage: studio" in printed
+
+
+def test_the_help_of_a_switch_says_what_it_switches(here) -> None:
+    words = " ".join(here("serve", "--help")[1].replace("│", " ").split())
+    assert "--no-browser Only print the page's address, open no browser. --" in words
 
 
 def test_a_reader_that_leaves_gives_no_traceback() -> None:

@@ -13,6 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 PRIVATE = "recordings/demonstration-007.mcap"
+BRIDGES = ("webcam.py", "webcam-requirements.txt", "kinect.py")  # run by path, imported by nobody
 
 
 def run(*command: str | Path, cwd: Path, **environment: str) -> str:
@@ -62,6 +63,7 @@ def test_the_wheel_has_the_data_and_no_users_recording(wheel: Path) -> None:
     assert not [name for name in names if name.startswith(("tests/", "recordings/"))]
     for name in ("urdf/baxter.urdf", "seeds/table1.csv", "recordings/samples/never-arms.jsonl"):
         assert f"studio/data/{name}" in names
+    assert {f"studio/bridges/{name}" for name in BRIDGES} <= set(names)
     assert [name for name in names if name.endswith("licenses/NOTICE")]
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from studio.engine.live.access import Address, check_address
 from studio.engine.sources import read_skeletons
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -78,6 +79,17 @@ def test_the_two_commands_are_one_line_each() -> None:
 def test_every_link_to_a_file_leads_to_one(page: Path) -> None:
     for link in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
         assert (page.parent / link).exists(), link
+
+
+def test_every_page_is_found_from_the_readme() -> None:
+    for page in PAGES[1:]:
+        assert f"](docs/{page.name})" in README, page.name
+
+
+def test_its_tokens_are_long_enough() -> None:
+    for page in PAGES:
+        for token in re.findall(r"(?:TOKEN=|token=|--token |Bearer\s)([\w-]+)", page.read_text()):
+            check_address(Address("0.0.0.0"), token)
 
 
 def test_every_picture_exists() -> None:
