@@ -2,14 +2,17 @@
 
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 
 from studio.engine.errors import StudioError
-from studio.engine.robot import CONTROL_PERIOD
+from studio.engine.pace import Pace
+from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
 from studio.engine.session import Session
 
 now = time.monotonic  # [s], for whoever is given a clock
 BADLY_LATE = 5 * CONTROL_PERIOD  # [s]; behind by more, the loop skips ahead instead of racing
+_LATELY = 3 * CONTROL_RATE  # ticks
 
 
 def wait_until(due: float, stopping: threading.Event) -> bool:
@@ -25,13 +28,13 @@ class LiveLoop:
 
     Drift-free: each tick is due one period after the last one was *due*. A live frame that the
     session awaits brings its tick forward, within its own period, so that frames hardly wait and
-    ticks are still 30 a second. ``skipped`` counts the ticks that were given up because the machine
-    was badly late. ``speed`` makes the session's time
-    pass faster than the clock's. A context manager.
+    ticks are still 30 a second. ``pace`` says how well it keeps up. ``speed`` makes the session's
+    time pass faster than the clock's. A context manager.
     """
 
     def __init__(self, build: Callable[[], Session], speed: float = 1.0) -> None:
-        self.skipped = 0
+        self.pace = Pace()
+        self._due: deque[int] = deque([0], _LATELY)  # for each tick of late: how many were due
         self._period = CONTROL_PERIOD / speed  # [s] of the clock
         self._build = build
         self._built: Session | None = None
@@ -85,10 +88,15 @@ class LiveLoop:
             session.tick()
             due += self._period
             late = now() - due
-            if late > BADLY_LATE:
-                missed = int(late / self._period)
-                self.skipped += missed
-                due += missed * self._period
+            missed = int(late / self._period) if late > BADLY_LATE else 0
+            due += missed * self._period
+            self._note(missed)
+
+    def _note(self, missed: int) -> None:
+        """Take note of a tick, and of those that were given up after it."""
+        skipped = self.pace.skipped + missed
+        self._due.append(self._due[-1] + 1 + missed)
+        self.pace = Pace((len(self._due) - 1) / (self._due[-1] - self._due[0]), skipped)
 
     def _wait_for_tick(self, session: Session, due: float) -> bool:
         """Wait until a tick is due, or a frame has come within the period before that."""

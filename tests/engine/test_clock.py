@@ -76,14 +76,14 @@ def test_awaited_frames_leave_the_ticks_at_thirty_a_second(tmp_path, rate: float
         loop.session.post(commands.UseLive())
         loop.session.post(commands.Watch())
         wait_for(lambda: loop.session.snapshot.mode is Mode.WATCHING)
-        begun, before, skipped = time.monotonic(), loop.session.snapshot.time, loop.skipped
+        begun, before, skipped = time.monotonic(), loop.session.snapshot.time, loop.pace.skipped
         for n in range(int(1.5 * rate)):
             time.sleep(max(0.0, begun + n / rate - time.monotonic()))
             live.put(Frame(n / rate, (person(n / rate),)), clock.now(), True)
 
         def behind() -> float:
             ticked = loop.session.snapshot.time - before
-            ticked += (loop.skipped - skipped) * CONTROL_PERIOD
+            ticked += (loop.pace.skipped - skipped) * CONTROL_PERIOD
             return time.monotonic() - begun - ticked
 
         wait_for(lambda: abs(behind()) < 0.1)  # a busy machine catches up
@@ -114,6 +114,36 @@ def test_an_awaited_frame_brings_its_tick_forward(monkeypatch, comes: float, tic
     loop._stopping = Waiting(math.inf)
     assert loop._wait_for_tick(SimpleNamespace(awaited=Waiting(comes)), due=10.0)
     assert time_now[0] == pytest.approx(ticks)
+
+
+def test_ticks_that_are_given_up_are_counted(monkeypatch) -> None:
+    """Out of all that were due each was either made or given up, and the pace says which share."""
+    time_now, slow = [0.0], [CONTROL_PERIOD / 2]
+    monkeypatch.setattr(clock, "now", lambda: time_now[0])
+    made = []
+
+    class Slow:
+        awaited = None
+
+        def tick(self) -> None:
+            made.append(time_now[0])
+            time_now[0] += slow[0]
+
+    class Ending:
+        def wait(self, timeout: float) -> bool:
+            time_now[0] += timeout
+            return time_now[0] >= end
+
+    loop = LiveLoop(lambda: None)
+    loop._stopping = Ending()
+    end = 10.0
+    loop._tick_until_stopped(Slow())
+    assert (loop.pace.share, loop.pace.skipped) == (1.0, 0)
+    slow[0], end = 2 * CONTROL_PERIOD, 40.0
+    before = len(made)
+    loop._tick_until_stopped(Slow())
+    assert loop.pace.skipped + len(made) - before == pytest.approx(30.0 / CONTROL_PERIOD, abs=8)
+    assert loop.pace.share == pytest.approx(0.5, abs=0.05)
 
 
 def test_a_wait_ends_where_it_is_due_or_stopped() -> None:
