@@ -10,7 +10,7 @@ import numpy as np
 
 from studio.engine.skeleton import FloatArray, Joint, Skeleton
 
-SPOT = (0.1, -1.3)  # [m] ahead and to the left of the robot's axis, where the page's camera looks
+SPOT = (0.1, -1.15)  # [m] ahead and to the left of the robot's axis, where the page's camera looks
 # The axes of a person who faces the sensor, in camera space: forward, left, up. A rotation.
 WORLD_FROM_CAMERA = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 

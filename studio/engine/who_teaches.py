@@ -1,14 +1,38 @@
-"""Who teaches: the demonstrator, the person in a file, or a live stream; one of them is chosen."""
+"""Who teaches: the puppet, the demonstrator, a person in a file, or a live stream; one of them."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 
+import numpy as np
+
+from studio.engine.activity import Activity, Follow
+from studio.engine.calibrating import Calibrating
+from studio.engine.commands import source as asked
 from studio.engine.errors import StudioError
+from studio.engine.hand_strip import HandStrip
 from studio.engine.live.source import LiveSource
 from studio.engine.live.status import LiveStatus, in_short
+from studio.engine.puppet import PuppetTeacher
+from studio.engine.reading import Reading
+from studio.engine.recording import Recording
+from studio.engine.robot import CONTROL_PERIOD
+from studio.engine.skeleton import SIDES, HandState
 from studio.engine.snapshot import SourceStatus
 from studio.engine.sources import SkeletonRecording
 from studio.engine.sources.demonstrator import demonstrate
 from studio.engine.teachers import FileTeacher, LiveTeacher, Teacher
+from studio.engine.who_status import PuppetStatus, WhoStatus
+
+PUPPET_TAKEN = "Source: the puppet. In 2 Teach press Record; then sign, and drag its hand."
+
+
+@dataclass(frozen=True, eq=False)
+class NamedRecording:
+    """A recording that was read, and its name for people."""
+
+    recording: Recording
+    name: str
+    path: Path
 
 
 class WhoTeaches:
@@ -25,17 +49,76 @@ class WhoTeaches:
     def __init__(self, seed: int, live: LiveSource | None) -> None:
         self.chosen: Teacher | None = None
         self._seed, self._take = seed, 0
+        self._demonstrator: Teacher | None = None  # its newest take
         self._live = None if live is None else LiveTeacher(live)
+        self.puppet = PuppetTeacher()
+        self._choices = 0  # made so far, of anything but files
+        self._file: asked.UseFile | None = None  # that is the source
+        self._bodies: tuple[tuple[str, int], ...] = ()  # in it
+        self._reading, self._strip = Reading(), HandStrip()
+
+    def take(self, command: asked.SourceCommand) -> str:
+        """Do what is asked, and return in words what came of it.
+
+        Raises
+        ------
+        StudioError
+            Where there is no such source, or it is not the one that is chosen.
+        """
+        match command:
+            case asked.UseFile() | asked.FollowBody() | asked.CancelReading():
+                return self._take_file(command)
+            case asked.UseDemonstrator() | asked.UseLive() | asked.UsePuppet():
+                self._choices += 1
+                return self._use(command)
+            case _:
+                self._move_puppet(command)
+                return ""
+
+    def tick(self, activity: Activity) -> str | NamedRecording:
+        """Let a tick pass, beside what goes on; return what has been read, a source in words.
+
+        Raises
+        ------
+        FileError
+            Where a file that was to be read is of no use.
+        """
+        watched = activity.teacher if isinstance(activity, Follow | Calibrating) else None
+        if self.chosen is self.puppet and watched is not self.puppet:
+            self.puppet.idle()
+        if isinstance(activity, Follow) and activity.newest is not None:
+            self._strip.note(activity.newest.gate, activity.time, CONTROL_PERIOD)
+        found = self._reading.poll()
+        if found is None:
+            return ""
+        name = found.file.shown
+        if isinstance(found.content, Recording):
+            return NamedRecording(found.content, name, found.file.path)
+        if found.number != self._choices:
+            return f"{name} was read; something else was chosen meanwhile."
+        return self._use_file(found.file, found.content)
 
     def use_demonstrator(self) -> str:
         """Choose the demonstrator's next take."""
         self._take += 1
-        return self.use_stream(demonstrate(self._seed, self._take))
+        words = self.use_stream(demonstrate(self._seed, self._take))
+        self._demonstrator = self.chosen
+        return words
 
-    def use_stream(self, stream: SkeletonRecording, name: str = "") -> str:
-        """Choose the person in a file, which people know as ``name``, if that is not its path."""
-        stream = replace(stream, path=name) if name else stream
-        self.chosen = FileTeacher(stream)
+    def show_again(self) -> None:
+        """Have the demonstrator show another take, if it is who teaches; others do so anyway.
+
+        Raises
+        ------
+        StudioError
+            Where nobody is chosen.
+        """
+        if self.required() is self._demonstrator:
+            self.use_demonstrator()
+
+    def use_stream(self, stream: SkeletonRecording) -> str:
+        """Choose the person in a stream."""
+        self._choose(FileTeacher(stream))
         hands = "" if stream.has_hand_states else ": it tells no hand states, so open the gate"
         return f"Source: {stream.path}, {stream.frames} frames{hands}"
 
@@ -43,15 +126,15 @@ class WhoTeaches:
         """Choose whoever sends a live stream; raise StudioError where none is taken."""
         if self._live is None:
             raise StudioError("No live streams are taken here: start the studio with its listener")
-        self.chosen = self._live
+        self._choose(self._live)
         return f"Source: the live stream. {in_short(self._live.live(is_followed=True))}"
 
     def required(self) -> Teacher:
         """Return who is chosen; raise StudioError where nobody is."""
         if self.chosen is None:
             raise StudioError(
-                "Choose a source first: a sample, a file of your own, a live stream, the "
-                "demonstrator"
+                "Choose a source first: the puppet, a sample, a file of your own, a live stream, "
+                "the demonstrator"
             )
         return self.chosen
 
@@ -64,3 +147,74 @@ class WhoTeaches:
         if self._live is None:
             return None
         return self._live.live(is_followed=watched is self._live)
+
+    def shown(self, activity: Activity) -> WhoStatus:
+        """Return what people see of who teaches, beside the source itself."""
+        return WhoStatus(
+            reading=self._reading.status,
+            puppet=_shown(self.puppet) if self.chosen is self.puppet else None,
+            strip=self._strip.runs if isinstance(activity, Follow) else (),
+            bodies=self._bodies,
+            body=None if self._file is None else self._file.body,
+        )
+
+    def close(self) -> None:
+        """Give up what is being read."""
+        self._reading.close()
+
+    def _choose(self, teacher: Teacher) -> None:
+        self.chosen, self._file, self._bodies = teacher, None, ()
+
+    def _use(self, command: asked.UseDemonstrator | asked.UseLive | asked.UsePuppet) -> str:
+        match command:
+            case asked.UseDemonstrator():
+                return self.use_demonstrator()
+            case asked.UseLive():
+                return self.use_live()
+            case asked.UsePuppet():
+                self._choose(self.puppet)
+                return PUPPET_TAKEN
+
+    def _take_file(self, command: asked.FileCommand) -> str:
+        match command:
+            case asked.UseFile():
+                return self._read(command)
+            case asked.FollowBody(body):
+                if self._file is None:
+                    raise StudioError("Take a file first: only there you choose whom to follow")
+                return self._read(replace(self._file, body=body))
+            case asked.CancelReading():
+                return self._reading.cancel()
+
+    def _read(self, file: asked.UseFile) -> str:
+        self._reading.read(file, self._choices)
+        return f"Reading {file.shown}."
+
+    def _use_file(self, file: asked.UseFile, stream: SkeletonRecording) -> str:
+        words = self.use_stream(stream)
+        self._file, self._bodies = file, tuple(stream.bodies.items())
+        if len(self._bodies) > 1 and file.body is None:
+            words += f"; of {len(self._bodies)} bodies in it the nearest is followed"
+        return words
+
+    def _move_puppet(self, command: asked.PuppetCommand) -> None:
+        if self.chosen is not self.puppet:
+            raise StudioError("Take the puppet first, in 1 Source: then it can be dragged")
+        match command:
+            case asked.DragHand(side, point):
+                self.puppet.drag_hand(side, np.array(point))
+            case asked.DragElbow(side, point):
+                self.puppet.drag_elbow(side, np.array(point))
+            case asked.ReleaseElbow(side):
+                self.puppet.release_elbow(side)
+            case asked.Sign(side, state):
+                self.puppet.sign(side, state)
+            case asked.PuppetHome():
+                self.puppet.go_home()
+                for each in SIDES:
+                    self.puppet.sign(each, HandState.UNKNOWN)
+
+
+def _shown(puppet: PuppetTeacher) -> PuppetStatus:
+    now = puppet.memory
+    return PuppetStatus(puppet.goals, now.left_sign, now.right_sign)

@@ -5,7 +5,6 @@ import trimesh
 import viser
 from numpy.typing import NDArray
 
-from studio.engine.placement import Placement
 from studio.engine.skeleton import (
     BONES,
     JOINT_COUNT,
@@ -17,6 +16,7 @@ from studio.engine.skeleton import (
 )
 from studio.engine.snapshot import Snapshot
 from studio.panels.palette import HAND, UNSEEN_HAND
+from studio.panels.placing import Placing
 
 ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
 _BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
@@ -26,8 +26,7 @@ class PersonView:
     """Draws the skeleton: all joints as one node, all bones as another, the signing hand."""
 
     def __init__(self, scene: viser.SceneApi, name: str = "/person") -> None:
-        self._placement: Placement | None = None
-        self._person = ("", "")  # whom it is for: the source's name, the body's id
+        self._placing = Placing()
         self._drawn: object = None
         self._root = scene.add_frame(name, show_axes=False, visible=False)
         ball = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
@@ -55,30 +54,33 @@ class PersonView:
 
     def draw(self, now: Snapshot) -> None:
         """Show a person, or nobody; the hand speaks only while somebody listens."""
-        skeleton, watched = now.skeleton, now.gate is not None
+        skeleton, placement = now.skeleton, self._placing.of(now)
+        watched = now.gate is not None or now.who.puppet is not None
         self._root.visible = skeleton is not None
         self._label.visible = watched
-        if skeleton is None or (skeleton, watched) == self._drawn:
+        if skeleton is None or placement is None:
             return
-        self._drawn = skeleton, watched
-        self._show(self._placed(skeleton, now), skeleton, watched)
+        state = shown_state(now)
+        if (skeleton, watched, state) != self._drawn:
+            self._drawn = skeleton, watched, state
+            self._show(placement.place(skeleton.positions), skeleton, state if watched else None)
 
-    def _placed(self, skeleton: Skeleton, now: Snapshot) -> FloatArray:
-        """Return the joints (25, 3) [m] in the world; another person gets another placement."""
-        person = (now.source.name if now.source else "", skeleton.body_id)
-        if self._placement is None or person != self._person:
-            self._person, self._placement = person, Placement.of(skeleton)
-        return self._placement.place(skeleton.positions)
-
-    def _show(self, points: FloatArray, skeleton: Skeleton, watched: bool) -> None:
+    def _show(self, points: FloatArray, skeleton: Skeleton, state: HandState | None) -> None:
         self._joints.batched_positions = points.astype(np.float32)
         self._joints.batched_colors = joint_colors(skeleton)
         self._bones.points = points[np.array(BONES)]
-        hand, state = points[Joint.HAND_LEFT], skeleton.left_hand.state
+        hand = points[Joint.HAND_LEFT]
         self._hand.position = hand
-        self._hand.color = HAND[state] if watched else UNSEEN_HAND
+        self._hand.color = UNSEEN_HAND if state is None else HAND[state]
         self._label.position = hand + ABOVE
-        self._label.text = hand_words(state)
+        self._label.text = "" if state is None else hand_words(state)
+
+
+def shown_state(now: Snapshot) -> HandState:
+    """Return what the left hand shows: as the gate takes it, where somebody is watched."""
+    if now.gate is not None:
+        return now.gate.state
+    return HandState.UNKNOWN if now.skeleton is None else now.skeleton.left_hand.state
 
 
 def hand_words(state: HandState) -> str:

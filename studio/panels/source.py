@@ -1,81 +1,80 @@
-"""1 Source: who teaches (a sample, a file, the demonstrator, a live stream), and how."""
+"""1 Source: who teaches (the puppet, a sample, a file, a live stream), and how."""
 
 from pathlib import Path
 
 import viser
 
 from studio.engine import commands
-from studio.engine.errors import FileError
 from studio.engine.resources import samples_folder
-from studio.engine.snapshot import Snapshot, SourceStatus
+from studio.engine.snapshot import Snapshot
 from studio.panels import markup, streams
+from studio.panels.arcs import ArcsView
+from studio.panels.arm_angles import ArmAnglesPanel
 from studio.panels.calibration import CalibrationPanel
+from studio.panels.files import FilePanel, ReadingPanel
 from studio.panels.inputs import Post
+from studio.panels.puppet import PuppetPanel
 from studio.panels.settings import SettingsPanel
-from studio.panels.uploads import Uploads, shown_name
+from studio.panels.uploads import Uploads
 
 
 class SourcePanel:
     """The first step."""
 
-    def __init__(self, gui: viser.GuiApi, post: Post, uploads: Uploads) -> None:
-        self._post, self._uploads = post, uploads
+    def __init__(self, gui: viser.GuiApi, post: Post, uploads: Uploads, arcs: ArcsView) -> None:
+        self._post = post
         self._now = gui.add_html("")
-        self._add_sources(gui)
-        self._add_live(gui)
-        self._problem = gui.add_html("", visible=False)
-        gui.add_divider()
-        gui.add_html(markup.block("<b>How Baxter follows</b>"))
-        self._settings = SettingsPanel(gui, post)
-        gui.add_divider()
-        self._calibration = CalibrationPanel(gui, post)
+        self._reading = ReadingPanel(gui, post)
+        self._puppet = PuppetPanel(gui, post)
+        self._add_ready_made(gui)
+        self._file = FilePanel(gui, post, uploads)
+        self._sensor = gui.add_folder("A sensor: live stream, webcam", expand_by_default=False)
+        with self._sensor:
+            self._add_live(gui)
+        with gui.add_folder("How Baxter follows", expand_by_default=False):
+            self._settings = SettingsPanel(gui, post)
+            self._calibration = CalibrationPanel(gui, post)
+        with gui.add_folder("Your arm's six angles", expand_by_default=False):
+            self._angles = ArmAnglesPanel(gui, arcs)
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
-        self._now.content = described(now.source)
-        self._take_live.visible = self._live.visible = now.live is not None
+        self._now.content = described(now)
+        self._reading.draw(now)
+        self._puppet.draw(now)
+        self._file.draw(now)
+        self._sensor.visible = now.live is not None
         self._live.content = streams.described(now.live)
+        self._how.content = streams.instructions(now.live)
         self._settings.draw(now)
         self._calibration.draw(now)
+        self._angles.draw(now)
 
-    def _add_sources(self, gui: viser.GuiApi) -> None:
+    def _add_ready_made(self, gui: viser.GuiApi) -> None:
+        """Add who is there without anybody's doing."""
         demonstrator = gui.add_button(
             "Take the demonstrator",
             hint="A built-in person who signs and pushes the block; each take differs a little",
             icon=viser.Icon.USER,
+            color="gray",
         )
         demonstrator.on_click(lambda _: self._post(commands.UseDemonstrator()))
         samples = sample_files()
         if samples:
             self._sample = gui.add_dropdown("Sample", tuple(samples))
-            load = gui.add_button("Take the sample", icon=viser.Icon.FILE)
+            load = gui.add_button("Take the sample", icon=viser.Icon.FILE, color="gray")
             load.on_click(lambda _: self._post(commands.UseFile(samples[self._sample.value])))
-        upload = gui.add_upload_button(
-            "Upload a file",
-            hint="Skeletons (Kinect, NTU RGB+D, MediaPipe, tables, JSONL) or a recording (MCAP)",
-            icon=viser.Icon.UPLOAD,
-        )
-        upload.on_upload(self._receive)
 
     def _add_live(self, gui: viser.GuiApi) -> None:
-        self._take_live = gui.add_button(
+        take = gui.add_button(
             "Take the live stream",
             hint="Whoever sends: a webcam, a Kinect's program, a recording that is played",
             icon=viser.Icon.BROADCAST,
-            visible=False,
+            color="gray",
         )
-        self._take_live.on_click(lambda _: self._post(commands.UseLive()))
-        self._live = gui.add_html("", visible=False)
-
-    def _receive(self, event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
-        file = event.target.value
-        try:
-            path = self._uploads.keep(file.name, file.content)
-        except FileError as error:
-            self._problem.content, self._problem.visible = markup.problem(str(error)), True
-        else:
-            self._problem.visible = False
-            self._post(commands.UseFile(path, shown_name(file.name)))
+        take.on_click(lambda _: self._post(commands.UseLive()))
+        self._live = gui.add_html("")
+        self._how = gui.add_html("")
 
 
 def sample_files() -> dict[str, Path]:
@@ -85,10 +84,13 @@ def sample_files() -> dict[str, Path]:
     return {f"{f.stem} ({shown[f.suffix]})": f for f in files if f.suffix in shown}
 
 
-def described(source: SourceStatus | None) -> str:
+def described(now: Snapshot) -> str:
     """Return the source in words."""
+    source = now.source
     if source is None:
         return markup.block("<b>No source yet.</b> Who teaches?")
+    if now.who.puppet is not None:
+        return markup.block("Source: <b>you, with the puppet</b>, until Stop")
     if source.is_live:
         return markup.block(f"Source: <b>{markup.text(source.name)}</b>, until Stop")
     hands = "with hand states" if source.has_hand_states else "without hand states: open the gate"

@@ -1,53 +1,45 @@
-"""The person is drawn where they stand, and as surely as they are seen."""
+"""The person stands where they were placed, and shows what is seen of them."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 import pytest
-import viser
 
-from studio.engine.skeleton import (
-    FloatArray,
-    Hand,
-    HandState,
-    Joint,
-    Skeleton,
-    Tracking,
-    all_tracked,
-)
+from studio.engine.skeleton import Hand, HandState, Joint, Skeleton, Tracking, all_tracked
 from studio.engine.snapshot import SourceStatus
-from studio.engine.sources.demonstrator import demonstrate
 from studio.panels.palette import HAND
-from studio.panels.person import PersonView, hand_words, joint_colors
+from studio.panels.person import hand_words, joint_colors, shown_state
+from studio.panels.placing import Placing
 
 
-@pytest.fixture
-def view() -> Iterator[PersonView]:
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    try:
-        yield PersonView(server.scene)
-    finally:
-        server.stop()
+def test_a_person_is_placed_once_and_another_one_anew(lesson) -> None:
+    """A step aside is seen as a step; whoever comes next begins at the same spot."""
+    now, placing = lesson["sourced"], Placing()
+    first = placing.of(now)
+    aside = replace(now.skeleton, positions=now.skeleton.positions + np.array([0.5, 0.0, 0.0]))
+    moved = replace(now, skeleton=aside)
+    assert placing.of(moved) is first
+    another = placing.of(replace(now, skeleton=replace(aside, body_id="another")))
+    assert another.offset != pytest.approx(first.offset)
+    assert placing.of(replace(now, skeleton=None)) is None
 
 
-def test_a_live_persons_steps_are_seen_as_steps(lesson, view: PersonView) -> None:
-    """Whom a live stream shows stays placed, however many frames have come; others are not."""
-    take = demonstrate(seed=3)
-    aside = replace(take[1], positions=take[0].positions + np.array([0.5, 0.0, 0.0]))
-    live = SourceStatus("live stream", 1, 0.0, True, is_live=True)
+def test_a_streams_person_stays_while_its_frames_are_counted(lesson) -> None:
+    now, placing = lesson["sourced"], Placing()
+    live = SourceStatus("live stream", 1, 0.0, has_hand_states=True, is_live=True)
+    first = placing.of(replace(now, source=live))
+    assert placing.of(replace(now, source=replace(live, frames=2))) is first
 
-    def drawn(skeleton: Skeleton, source: SourceStatus) -> FloatArray:
-        view.draw(replace(lesson["sourced"], source=source, skeleton=skeleton))
-        return np.array(view._joints.batched_positions)
 
-    first = drawn(take[0], live)
-    then = drawn(aside, replace(live, frames=2, seconds=1.0))
-    np.testing.assert_allclose(then - first, np.tile((0.0, -0.5, 0.0), (25, 1)), atol=1e-6)
-    other = drawn(replace(aside, body_id="other"), replace(live, frames=3))
-    np.testing.assert_allclose(other, first, atol=1e-6)
-    drawn(take[0], live)
-    np.testing.assert_allclose(drawn(aside, replace(live, name="a file")), first, atol=1e-6)
+def test_the_hand_wears_what_the_gate_takes_it_for(lesson) -> None:
+    """A state that the source is not sure of is none, for the gate and in the picture alike."""
+    now = lesson["lasso"]
+    assert shown_state(now) is now.gate.state
+    unsure = replace(now.gate, state=HandState.UNKNOWN)
+    assert shown_state(replace(now, gate=unsure)) is HandState.UNKNOWN
+    unwatched = replace(now, gate=None)
+    assert shown_state(unwatched) is now.skeleton.left_hand.state
+    assert shown_state(replace(unwatched, skeleton=None)) is HandState.UNKNOWN
 
 
 def test_guessed_joints_are_pale() -> None:

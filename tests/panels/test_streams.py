@@ -10,7 +10,7 @@ from studio.engine.snapshot import SourceStatus
 from studio.panels.readiness import next_step, why_not_teach
 from studio.panels.source import described as source_described
 from studio.panels.status import strip
-from studio.panels.streams import described
+from studio.panels.streams import described, instructions
 
 NOBODY = LiveStatus(address="ws://127.0.0.1:8765")
 FLOWING = replace(
@@ -76,5 +76,22 @@ def test_a_newcomer_is_led_to_the_stream(lesson) -> None:
 
 
 def test_a_source_without_an_end_has_no_length(lesson) -> None:
-    assert "until Stop" in source_described(LIVE)
+    assert "until Stop" in source_described(replace(lesson["start"], source=LIVE))
     assert " of 0 s" not in strip(replace(lesson["armed"], duration=0.0))
+
+
+def test_rate_and_losses_are_said_with_a_shape() -> None:
+    """Dropped, late and too fast: 234 of 1,234 messages never moved Baxter."""
+    words = described(FLOWING)
+    assert "● <b>30 frames/s</b>" in words
+    assert "▲ <b>234 lost</b> (19.0%)" in words
+    assert "✔ <b>0 lost</b>" in described(replace(FLOWING, counts=Counts(received=9, used=9)))
+    assert "○ <b>nothing comes in</b>" in described(NOBODY)
+
+
+def test_the_commands_to_copy_send_to_this_studio() -> None:
+    assert ">studio webcam</code>" in instructions(NOBODY)
+    elsewhere = replace(NOBODY, address="ws://127.0.0.1:8770")
+    assert ">studio webcam --to ws://127.0.0.1:8770</code>" in instructions(elsewhere)
+    assert ">studio play FILE --to ws://127.0.0.1:8770</code>" in instructions(elsewhere)
+    assert instructions(None) == ""

@@ -6,7 +6,7 @@ import io
 import os
 import stat
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
@@ -21,6 +21,12 @@ HEAD_BYTES = 64 * 1024  # enough to tell a format by
 _CHUNK_BYTES = 1024 * 1024
 _GZIP_MAGIC = b"\x1f\x8b"
 
+Told = Callable[[float], None]  # hears what share of a file has been read, 0 to 1
+
+
+def unheard(_: float) -> None:
+    """Nobody wants to know."""
+
 
 class Content:
     """The decompressed bytes of a file, to be read once: whole, or line by line.
@@ -28,9 +34,14 @@ class Content:
     ``head`` are its first bytes, which stay to be read. Errors name the file.
     """
 
-    def __init__(self, name: str, stream: IO[bytes] | gzip.GzipFile) -> None:
+    def __init__(
+        self,
+        name: str,
+        stream: IO[bytes] | gzip.GzipFile,
+        on_read: Callable[[], None] = lambda: None,
+    ) -> None:
         self.name = name
-        self._stream = stream
+        self._stream, self._on_read = stream, on_read
         self._count = 0  # bytes read so far
         self.head = self._read(HEAD_BYTES)
 
@@ -111,12 +122,13 @@ class Content:
         except OSError as error:
             raise _unreadable(self.name, error) from None
         self._count += len(chunk)
+        self._on_read()
         return chunk
 
 
 @contextmanager
-def open_content(path: str | os.PathLike[str]) -> Iterator[Content]:
-    """Open what a file holds, decompressed if it is gzip.
+def open_content(path: str | os.PathLike[str], told: Told = unheard) -> Iterator[Content]:
+    """Open what a file holds, decompressed if it is gzip; ``told`` hears how much was read.
 
     Raises
     ------
@@ -127,7 +139,12 @@ def open_content(path: str | os.PathLike[str]) -> Iterator[Content]:
     name = os.fspath(path)
     with _opened(name) as stream:
         compressed = stream.peek(2)[:2] == _GZIP_MAGIC
-        content = Content(name, gzip.GzipFile(fileobj=stream) if compressed else stream)
+        size = max(os.fstat(stream.fileno()).st_size, 1)
+        content = Content(
+            name,
+            gzip.GzipFile(fileobj=stream) if compressed else stream,
+            lambda: told(min(stream.tell() / size, 1.0)),
+        )
         if not content.head:
             raise FileError(f"{name}: the file is empty; expected a recording of skeletons")
         yield content

@@ -6,13 +6,13 @@ from pathlib import Path
 from studio.engine.errors import FileError, StudioError
 from studio.engine.mcap_log import is_mcap
 from studio.engine.sources import mcap_skeletons
-from studio.engine.sources.content import open_content
+from studio.engine.sources.content import Told, open_content, unheard
 from studio.engine.sources.family import ParsedFile
 from studio.engine.sources.recording import SkeletonRecording, follow
 from studio.engine.sources.registry import parse_content
 
 
-def read_frames(path: str | os.PathLike[str]) -> ParsedFile:
+def read_frames(path: str | os.PathLike[str], told: Told = unheard) -> ParsedFile:
     """Return all frames of a file with all their bodies; its content tells its format.
 
     Parameters
@@ -21,6 +21,8 @@ def read_frames(path: str | os.PathLike[str]) -> ParsedFile:
         kinect2-socket JSON, node-kinect2 frames, a Kinectron recording, MediaPipe landmarks, an
         NTU RGB+D skeleton, a table of 75, 100, 101 or 175 columns, or the studio's own JSONL, each
         plain or gzip; or skeletons as MCAP.
+    told
+        Hears on the way what share of the file has been read; of MCAP it hears nothing.
 
     Raises
     ------
@@ -30,11 +32,13 @@ def read_frames(path: str | os.PathLike[str]) -> ParsedFile:
     """
     if is_mcap(Path(path)):
         return mcap_skeletons.read(Path(path))
-    with open_content(path) as content:
+    with open_content(path, told) as content:
         return parse_content(content)
 
 
-def read_skeletons(path: str | os.PathLike[str], body: str | None = None) -> SkeletonRecording:
+def read_skeletons(
+    path: str | os.PathLike[str], body: str | None = None, told: Told = unheard
+) -> SkeletonRecording:
     """Return the skeletons of one body in a file, whose content tells its format.
 
     Parameters
@@ -44,6 +48,8 @@ def read_skeletons(path: str | os.PathLike[str], body: str | None = None) -> Ske
     body
         The id of the body to take. Without it, the one nearest to the sensor in the floor plane is
         taken and kept; see `studio.engine.sources.following`.
+    told
+        As in `read_frames`.
 
     Raises
     ------
@@ -51,7 +57,7 @@ def read_skeletons(path: str | os.PathLike[str], body: str | None = None) -> Ske
         As `read_frames` does, or where the file does not show that body.
     """
     name = os.fspath(path)
-    parsed = read_frames(path)
+    parsed = read_frames(path, told)
     try:
         return follow(parsed, name, body)
     except StudioError as error:

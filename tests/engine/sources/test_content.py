@@ -103,10 +103,10 @@ def test_lines_need_little_memory(tmp_path):
     assert peak < 8e6
 
 
-def test_the_readme_states_the_caps():
-    readme = (Path(__file__).resolve().parents[3] / "README.md").read_text()
+def test_the_page_on_files_states_the_caps():
+    page = (Path(__file__).resolve().parents[3] / "docs" / "files.md").read_text()
     for cap in (content.MAXIMUM_BYTES, content.MAXIMUM_STREAM_BYTES):
-        assert f"| {cap >> 20} MiB |" in readme
+        assert f"| {cap >> 20} MiB |" in page
 
 
 def test_endless_lines_and_endlessly_many_are_refused(monkeypatch):

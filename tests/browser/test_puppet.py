@@ -1,0 +1,86 @@
+"""The puppet under a real pointer: the hand goes where it is dragged, and Baxter is taught."""
+
+import socket
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+import viser
+from playwright.sync_api import Page, expect
+
+from studio.engine import commands
+from studio.engine.clock import LiveLoop
+from studio.engine.placement import Placement
+from studio.engine.session import Session
+from studio.engine.skeleton import FloatArray, Joint
+from studio.panels.app import App
+from tests.browser.conftest import PATIENCE
+from tests.browser.pixels import pixel
+
+expect.set_options(timeout=PATIENCE)
+
+
+class Puppet:
+    """Somebody at the page, who knows where the picture shows what."""
+
+    def __init__(self, loop: LiveLoop, app: App, page: Page) -> None:
+        self.loop, self.page = loop, page
+        self._server: viser.ViserServer = app._server
+
+    def hand(self) -> FloatArray:
+        """Return where the left hand is (3,) [m], in the world."""
+        skeleton = self.loop.session.snapshot.skeleton
+        hand: FloatArray = Placement.of(skeleton).place(skeleton.positions[Joint.HAND_LEFT])
+        return hand
+
+    def pixel(self, point: FloatArray) -> FloatArray:
+        """Return where a point (3,) [m] of the world is on the page (2,) [px]."""
+        return pixel(self._server, self.page, point)
+
+    def wait(self, reached, what: str) -> None:
+        end = time.monotonic() + PATIENCE / 1000.0
+        while not reached():
+            assert time.monotonic() < end, what
+            self.page.wait_for_timeout(100)
+
+
+@pytest.fixture
+def puppet(page: Page, tmp_path: Path) -> Iterator[Puppet]:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    build = lambda: Session(tmp_path / "recordings")  # noqa: E731 - built on the loop's thread
+    with LiveLoop(build) as loop, App(loop, port=port, detail=0.02) as app:
+        page.set_viewport_size({"width": 1366, "height": 768})  # the hand is behind no panel
+        page.goto(app.url)
+        page.get_by_role("button", name="Be the puppet", exact=True).click()
+        expect(page.get_by_text("you, with the puppet").first).to_be_visible()
+        yield Puppet(loop, app, page)
+
+
+def test_the_hand_goes_where_it_is_dragged_and_keys_sign(puppet: Puppet) -> None:
+    page = puppet.page
+    puppet.loop.session.post(commands.Watch())
+    puppet.wait(lambda: puppet.loop.session.snapshot.gate is not None, "nobody is watched")
+    for lit, key in enumerate("loc", start=1):
+        page.keyboard.press(key)
+        puppet.wait(lambda lit=lit: puppet.loop.session.snapshot.gate.lit == lit, f"{key}: {lit}")
+    expect(page.get_by_text("ARMED").first).to_be_visible()
+
+    page.wait_for_timeout(2000)  # until a slow machine has drawn the handles where they are
+    start = puppet.pixel(puppet.hand())
+    target = start + np.array([-60.0, 25.0])
+    page.mouse.move(*start)
+    page.mouse.down()
+    for share in np.linspace(0.1, 1.0, 10):
+        page.mouse.move(*(start + share * (target - start)))
+        page.wait_for_timeout(200)
+    puppet.wait(
+        lambda: np.linalg.norm(puppet.pixel(puppet.hand()) - target) < 8.0,
+        "the hand does not come under the pointer",
+    )
+    page.mouse.up()
+    page.wait_for_timeout(1000)
+    assert np.linalg.norm(puppet.pixel(puppet.hand()) - target) < 8.0  # and stays there
