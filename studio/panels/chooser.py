@@ -1,4 +1,4 @@
-"""A dropdown of the listed demonstrations; two panels have one, and both show the same choice."""
+"""A dropdown of the listed demonstrations; wherever there is one, it shows the same choice."""
 
 import viser
 
@@ -14,26 +14,28 @@ class DemonstrationChooser:
     """See the module."""
 
     def __init__(self, gui: viser.GuiApi, label: str, post: Post) -> None:
-        self._names: tuple[str, ...] = (_NONE,)
+        self._post = post
+        self._numbers: dict[str, int] = {}  # by what is shown of each
         self._drawn: object = None
-        self._dropdown = gui.add_dropdown(label, self._names, disabled=True)
-        on_choice(self._dropdown, lambda: post(commands.Choose(self.index)))
-
-    @property
-    def index(self) -> int:
-        """Which one the dropdown shows, counted from 0."""
-        return self._names.index(self._dropdown.value)
+        self._dropdown = gui.add_dropdown(label, (_NONE,), disabled=True)
+        on_choice(self._dropdown, self._choose)
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
-        names = tuple(described(now.entries, i) for i in range(len(now.entries))) or (_NONE,)
+        numbers = {described(entry): entry.number for entry in now.entries}
         # Only what has changed, or has been refused: a choice just made is on its way.
-        state = (names, now.chosen, now.message.number)
+        state = (numbers, now.chosen, now.message.number)
         if state == self._drawn:
             return
         self._drawn = state
-        if names != self._names:
-            self._names = names
+        names = tuple(numbers) or (_NONE,)
+        if tuple(self._numbers) != tuple(numbers) or not numbers:
+            self._numbers = numbers
             self._dropdown.options = names
         show_value(self._dropdown, names[max(now.chosen, 0)])
         self._dropdown.disabled = not now.entries
+
+    def _choose(self) -> None:
+        number = self._numbers.get(self._dropdown.value)
+        if number is not None:  # renamed or deleted since
+            self._post(commands.Choose(number))
