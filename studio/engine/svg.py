@@ -46,6 +46,7 @@ class Chart:
     boxes: tuple[Box, ...] = ()
     size: tuple[int, int] = (292, 205)  # [px], four of them on a page
     log: bool = False  # of the y axis
+    log_x: bool = False
     equal: bool = False  # whether a unit is as long on both axes
 
     def svg(self) -> str:
@@ -68,10 +69,11 @@ class Chart:
 class _Frame:
     """From values to pixels."""
 
-    x: tuple[float, float]
-    y: tuple[float, float]  # of the logarithm, where the axis is logarithmic
+    x: tuple[float, float]  # of the logarithm, where the axis is logarithmic
+    y: tuple[float, float]
     size: tuple[int, int]
     log: bool
+    log_x: bool
 
     @classmethod
     def around(cls, chart: Chart) -> "_Frame":
@@ -79,12 +81,15 @@ class _Frame:
         ys = np.concatenate([line.y for line in chart.lines] + [box.y for box in chart.boxes])
         if chart.log:
             ys = np.log10(ys[ys > 0.0])
+        if chart.log_x:
+            xs = np.log10(xs[xs > 0.0])
         x, y = _padded(xs, 0.0 if not chart.equal else 0.03), _padded(ys, 0.06)
         if chart.equal:
             x, y = _with_equal_units(x, y, chart.size)
-        return cls(x, y, chart.size, chart.log)
+        return cls(x, y, chart.size, chart.log, chart.log_x)
 
     def across(self, value: float) -> float:
+        value = math.log10(value) if self.log_x else value
         share = (value - self.x[0]) / (self.x[1] - self.x[0])
         return LEFT + share * (self.size[0] - LEFT - RIGHT)
 
@@ -120,7 +125,7 @@ def ticks(low: float, high: float) -> list[float]:
 
 def log_ticks(low: float, high: float) -> list[float]:
     """Return round numbers between 10**low and 10**high, decades alone where there are many."""
-    digits = (1.0,) if high - low > 2.0 else (1.0, 2.0, 5.0)
+    digits = (1.0,) if high - low > 3.0 else (1.0, 3.0) if high - low > 1.5 else (1.0, 2.0, 5.0)
     if high - low < 0.15:
         return ticks(10.0**low, 10.0**high)
     decades = range(math.floor(low), math.ceil(high) + 1)
@@ -136,7 +141,7 @@ def _axes(chart: Chart, frame: _Frame) -> list[str]:
         y = frame.down(value)
         parts.append(f'<path d="M{LEFT} {y:.1f}H{right}" class="grid"/>')
         parts.append(f'<text x="{LEFT - 5}" y="{y + 3.5:.1f}" class="tick end">{value:.6g}</text>')
-    for value in ticks(*frame.x):
+    for value in log_ticks(*frame.x) if chart.log_x else ticks(*frame.x):
         x = frame.across(value)
         parts.append(f'<path d="M{x:.1f} {bottom}v4" class="axis"/>')
         parts.append(f'<text x="{x:.1f}" y="{bottom + 15}" class="tick middle">{value:.6g}</text>')

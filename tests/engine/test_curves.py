@@ -6,20 +6,25 @@ import numpy as np
 import pytest
 
 from studio.engine.curves import (
+    COUNTS,
+    MOST_SHOWN,
     BlockCurve,
     ErrorCurve,
+    Explaining,
     TableRun,
     Training,
     TrialRun,
     block_point,
+    counts_of,
     error_point,
-    logarithmic_counts,
 )
-from studio.engine.demonstration import DemonstrationSet
+from studio.engine.demonstration import SAMPLES, DemonstrationSet
 from studio.engine.errors import StudioError
+from studio.engine.export.equations import equations_of
 from studio.engine.learners import kind_of
+from studio.engine.paper import paper_table
 from studio.engine.sweep import measure
-from studio.engine.teaching import LearnerSettings, learn, reproduce
+from studio.engine.teaching import LEARNERS, LearnerSettings, learn, reproduce
 from tests.engine.sweeps import Ticking, samples
 
 
@@ -57,6 +62,7 @@ def test_too_few_neurons_leave_the_block_standing() -> None:
     assert failing.hand_error > 5.0 * succeeding.hand_error
     alone = reproduce(learn(samples(), LearnerSettings("rbf", 20)))
     assert succeeding.hand_error == alone.deviation.hand_mean
+    assert succeeding.mse == error_point(samples(), LearnerSettings("rbf", 20)).mse
     assert block_point(samples(), LearnerSettings("rbf", 20)) == succeeding
 
 
@@ -84,10 +90,17 @@ def test_tasks_say_how_much_there_is_to_do() -> None:
             curve(samples(), "rbf", ())
 
 
-def test_counts_are_even_on_a_logarithmic_scale() -> None:
-    counts = logarithmic_counts()
-    assert (counts[0], counts[-1]) == (1, 300)
-    assert counts == tuple(sorted(set(counts)))
-    ratios = np.array(counts[8:-1]) / counts[7:-2]
+def test_counts_are_round_and_about_even_on_a_logarithmic_scale() -> None:
+    assert (COUNTS[0], COUNTS[-1]) == (1, MOST_SHOWN)
+    assert tuple(sorted(set(COUNTS))) == COUNTS
+    ratios = np.array(COUNTS[3:]) / COUNTS[2:-1]
     assert ratios.max() < 1.5
-    assert logarithmic_counts(1) == (1,)
+    assert {row.neurons for row in paper_table()} | {SAMPLES} <= set(COUNTS)
+    for learner in LEARNERS:
+        assert set(counts_of(learner)) <= set(COUNTS)
+
+
+def test_equations_of_a_lesson() -> None:
+    lesson = learn(samples(2), LearnerSettings("rbf", 9))
+    (found,) = Explaining(lesson).points()
+    assert found == equations_of(lesson)

@@ -47,6 +47,15 @@ def test_equal_units_are_equal():
     assert np.ptp(x) == pytest.approx(np.ptp(y), abs=0.5)
 
 
+def test_both_axes_may_be_logarithmic():
+    powers = 10.0 ** np.arange(4.0)
+    x, y = points_of(
+        Chart("t", "x", "y", (Line(powers, powers, "#000"),), log=True, log_x=True).svg()
+    ).T
+    np.testing.assert_allclose(np.diff(x), np.diff(x)[0], atol=0.15)
+    np.testing.assert_allclose(np.diff(y), np.diff(y)[0], atol=0.15)
+
+
 @settings(deadline=None, derandomize=True)
 @given(low=st.floats(-1e6, 1e6), width=st.floats(1e-3, 1e6))
 def test_ticks_are_few_round_and_inside(low, width):
@@ -58,6 +67,9 @@ def test_ticks_are_few_round_and_inside(low, width):
 
 def test_log_ticks_are_decades_where_there_are_many():
     np.testing.assert_allclose(log_ticks(-2.0, 2.0), [0.01, 0.1, 1.0, 10.0, 100.0])
+    np.testing.assert_allclose(
+        log_ticks(0.0, np.log10(300.0)), [1.0, 3.0, 10.0, 30.0, 100.0, 300.0]
+    )
     np.testing.assert_allclose(log_ticks(0.0, 1.0), [1.0, 2.0, 5.0, 10.0])
     assert len(log_ticks(0.0, 0.01)) >= 3
 

@@ -14,7 +14,15 @@ from studio.engine.curves import TrialRun
 from studio.engine.errors import StudioError
 from studio.engine.teaching import LearnerSettings
 from studio.engine.work import REPORT_EVERY, Done, Failed, Progress, Report, Work
-from tests.engine.long_work import PATIENCE, Counting, Endless, Failing, Slow, is_gone
+from tests.engine.long_work import (
+    PATIENCE,
+    Counting,
+    Endless,
+    Failing,
+    Slow,
+    Surroundings,
+    is_gone,
+)
 from tests.engine.sweeps import samples
 
 
@@ -81,6 +89,18 @@ def test_the_process_is_kept_for_the_next_task(work: Work) -> None:
         work.start(Counting(1))
         processes.add(reports_until_over(work)[-1].points[0])
     assert len(processes) == 1
+
+
+def test_linear_algebra_takes_one_thread_there_unless_somebody_chose_more(monkeypatch) -> None:
+    for chosen, found in ((None, "1"), ("3", "3")):
+        if chosen is None:
+            monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+        else:
+            monkeypatch.setenv("OPENBLAS_NUM_THREADS", chosen)
+        with Work(time.monotonic) as work:
+            work.start(Surroundings())
+            assert reports_until_over(work)[-1].points == (found,)
+        assert os.environ.get("OPENBLAS_NUM_THREADS") == chosen
 
 
 def test_progress_is_told_five_times_a_second_at_most() -> None:

@@ -1,0 +1,106 @@
+"""Failing on purpose: say whether the block will fall with so few neurons, then see."""
+
+import viser
+
+from studio.engine import commands
+from studio.engine.findings import FEWEST_GUESSES, Tried
+from studio.engine.learning_status import LearningStatus
+from studio.engine.snapshot import Snapshot
+from studio.panels import markup
+from studio.panels.inputs import Post
+from studio.panels.readiness import why_not_train
+
+_YES, _NO = "Yes, it falls", "No, it stays"
+
+
+class Guessing:
+    """See the module; the answer stays hidden until somebody has guessed."""
+
+    def __init__(self, gui: viser.GuiApi, post: Post) -> None:
+        self._learning: LearningStatus | None = None
+        self._post = post
+        self._question = gui.add_html("")
+        self._answer = gui.add_button_group("Will it fall?", (_YES, _NO))
+        self._score = gui.add_html("")
+        self._all = gui.add_button("Show all counts", icon=viser.Icon.EYE)
+        self._answer.on_click(lambda _: self._guess(falls=self._answer.value == _YES))
+        self._all.on_click(lambda _: self._reveal())
+
+    def draw(self, now: Snapshot) -> None:
+        """Show a snapshot."""
+        self._learning = now.learning
+        refusal = why_not_train(now)
+        self._question.content = question(now.learning, refusal)
+        # viser cannot disable a group; why it is not there is said in its place.
+        self._answer.visible = not refusal and now.learning.outcome is None
+        self._score.content = score(now.learning)
+        missing, untried = now.learning.guesses_missing, now.learning.untried
+        self._all.disabled = bool(refusal) or missing > 0 or not untried
+
+    def _guess(self, falls: bool) -> None:
+        if self._learning is not None:
+            self._post(commands.Guess(self._learning.chosen, falls))
+
+    def _reveal(self) -> None:
+        if self._learning is not None:
+            self._post(commands.RevealBlocks(self._learning.chosen.name))
+
+
+def question(learning: LearningStatus, refusal: str) -> str:
+    """Return the question, or its answer where somebody has guessed."""
+    neurons = learning.chosen.neurons
+    at = f"At <b>{neurons} neuron{'s' if neurons > 1 else ''}</b>"
+    known = learning.outcome
+    if known is not None:
+        return markup.block(f"{at} {_answer(known, learning)}") + markup.note(
+            "Move the slider to another number to guess again; 4 Compare shows it on the robot."
+        )
+    return markup.block(f"{at}: will the block fall?") + (
+        markup.reasons([refusal])
+        or markup.note("Say it first; then Baxter tries it behind the scenes, in about a second.")
+    )
+
+
+def _answer(known: Tried, learning: LearningStatus) -> str:
+    point = known.point
+    fell = "<b>▬ the block falls</b>" if point.block_down else "<b>▮ the block stays up</b>"
+    guess = ""
+    if known.guess is not None:
+        said = "it falls" if known.guess else "it stays up"
+        guess = f" You said: {said} {'✓' if known.right else '✗'}"
+    floor = learning.curve.floor
+    ratio = f", {point.mse / floor:.3g} × the floor" if floor else ""
+    return (
+        f"{fell}.{guess}<br>MSE {point.mse:.3g} rad²{ratio}; the hand is "
+        f"{1000.0 * point.hand_error:.0f} mm off on average."
+    )
+
+
+def score(learning: LearningStatus) -> str:
+    """Return how well somebody guesses, and what is missing before all is shown."""
+    if not learning.guesses:
+        return markup.note(f"No guess yet. After {FEWEST_GUESSES}, all counts can be shown.")
+    times = f"{learning.guesses} guess{'es' if learning.guesses > 1 else ''}"
+    line = markup.block(f"<b>{learning.right} of {times} right</b>")
+    if not learning.guesses_missing:
+        shown = "" if learning.untried else markup.note("All counts are shown above.")
+        return line + shown + _lesson(learning)
+    return line + markup.note(f"Guess {learning.guesses_missing} more, then all can be shown.")
+
+
+def _lesson(learning: LearningStatus) -> str:
+    """Return what the tried counts teach, once both ends are known."""
+    tried = sorted(
+        (each.point for each in learning.tried if each.learner == learning.chosen.name),
+        key=lambda point: point.neurons,
+    )
+    standing = [point.neurons for point in tried if not point.block_down]
+    enough = [p for p in tried if p.block_down and p.neurons > max(standing, default=0)]
+    floor = learning.curve.floor
+    if not standing or not enough or not floor:
+        return ""
+    few = enough[0]
+    return markup.note(
+        f"Of those tried, from {few.neurons} neurons on the block falls. There the MSE is still "
+        f"{few.mse / floor:.3g} × the floor: a small error and a task done are two things."
+    )
