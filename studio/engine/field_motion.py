@@ -75,7 +75,8 @@ class OnePlainField:
         taught = split_where_time_restarts(X, Y)
         start = np.mean([rows[0] for _, rows in taught], axis=0)
         step = _duration(taught) / STEPS
-        path = PlainField(n_neurons=self.neurons).fit(taught).rollout(start, step, STEPS)
+        self.field = PlainField(n_neurons=self.neurons).fit(taught)
+        path = self.field.rollout(start, step, STEPS)
         reach = max(_from_start(rows).max() for _, rows in taught)
         if not reach > 0.0:
             raise StudioError("plain-field: nothing moves in these demonstrations")

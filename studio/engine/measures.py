@@ -1,14 +1,15 @@
 """The numbers that people see, each defined once: errors of joints, of the hand, along time."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial.distance import cdist
 
-from studio.engine.arms import sides_of
+from studio.engine.arms import Arms, sides_of
 from studio.engine.hands import HandTrack
 from studio.engine.performance import Performance, joint_columns, whole_body
-from studio.engine.robot import load_robot
+from studio.engine.robot import CONTROL_RATE, load_robot
 from studio.engine.skeleton import FloatArray, Side
 
 
@@ -34,15 +35,36 @@ def deviation(
     count alike. Wrists are meant to be where ``hands`` have them, without that at zero.
     """
     stamps = np.linspace(0.0, performance.duration, len(rows))
-    measured = performance.measured_at(stamps)
-    error = measured[:, joint_columns(joints)] - rows
-    meant = whole_body(rows, joints)
+    meant = body_as_meant(rows, joints, performance.arms, performance.duration, hands)
+    return deviation_between(performance.measured_at(stamps), meant, joints, performance.arms)
+
+
+def body_as_meant(
+    rows: FloatArray,
+    joints: Sequence[str],
+    arms: Arms,
+    duration: float,
+    hands: HandTrack | None,
+) -> FloatArray:
+    """Return all joints (T, 15) [rad] that rows (T, D) of some mean, evenly over ``duration`` [s].
+
+    Wrists are where ``hands`` have them; all else that the rows lack is at zero.
+    """
+    body = whole_body(rows, joints)
     if hands is not None:
-        wrists = joint_columns(hands.options.wrist_joints(performance.arms))
-        meant[:, wrists] = [hands.at(stamp).wrist for stamp in stamps]
-    paths = [
-        (hand_path(measured, side), hand_path(meant, side)) for side in sides_of(performance.arms)
-    ]
+        wrists = joint_columns(hands.options.wrist_joints(arms))
+        stamps = np.linspace(0.0, duration, len(rows))
+        body[:, wrists] = [hands.at(stamp).wrist for stamp in stamps]
+    return body
+
+
+def deviation_between(
+    measured: FloatArray, meant: FloatArray, joints: Sequence[str], arms: Arms
+) -> Deviation:
+    """Compare two motions of all joints (T, 15) [rad], row by row; see `deviation`."""
+    columns = joint_columns(joints)
+    error = measured[:, columns] - meant[:, columns]
+    paths = [(hand_path(measured, side), hand_path(meant, side)) for side in sides_of(arms)]
     distance = np.array([np.linalg.norm(reached - intended, axis=1) for reached, intended in paths])
     return Deviation(
         joint_rmse=np.sqrt(np.mean(error**2, axis=0)),
@@ -50,6 +72,18 @@ def deviation(
         hand_max=float(distance.max()),
         hand_dtw=float(np.mean([dtw_distance(*pair) for pair in paths])),
     )
+
+
+def hand_acceleration(joint_positions: FloatArray, arms: Arms) -> float:
+    """Return the hands' root mean square acceleration [m/s²], for joints (T, 15) [rad] at 30 Hz.
+
+    By second differences, so that a jerky motion shows; NaN for fewer than three rows.
+    """
+    if len(joint_positions) < 3:
+        return float("nan")
+    bends = [np.diff(hand_path(joint_positions, side), 2, axis=0) for side in sides_of(arms)]
+    squares = np.sum(np.square(bends), axis=-1)
+    return float(np.sqrt(squares.mean())) * CONTROL_RATE**2
 
 
 def hand_path(joint_positions: FloatArray, side: Side) -> FloatArray:

@@ -86,17 +86,19 @@ class Performance:
         return np.column_stack([np.interp(times, stamps, column) for column in joints.T])
 
 
-def start_world(arms: Arms, mapping: Mapping, hands: HandOptions = PLAIN) -> World:
+def start_world(
+    arms: Arms, mapping: Mapping, hands: HandOptions = PLAIN, scene: Scene | None = None
+) -> World:
     """Return a fresh world in which the taught arms wait in their ready pose; another one hangs.
 
-    Fingers, if the hands have any, are open.
+    Fingers, if the hands have any, are open. ``scene`` is the usual one unless given.
     """
     ready = dict(zip(driven_joints(arms), ready_pose(arms, mapping).tolist(), strict=True))
     for side in set(SIDES) - set(sides_of(arms)):
         ready |= dict(zip(driven_joints(side), HANGING[side], strict=True))
     if hands.gripper:
         ready |= fingers_of("left", closed=False) | fingers_of("right", closed=False)
-    return World(Scene(arms=arms), ready, hands.gripper)
+    return World(scene or Scene(arms=arms), ready, hands.gripper)
 
 
 def send(

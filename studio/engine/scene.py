@@ -104,9 +104,47 @@ class Scene:
         """The blocks where they really stand."""
         return tuple(replace(b, position=self._placed(b.position)) for b in self.blocks)
 
+    @property
+    def room_for_block(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """From where to where the task's block may really stand: its center's x [m], and its y."""
+        desk, size = self.placed_desk, self.blocks[0].size
+        reach = [(edge - side) / 2 for edge, side in zip(desk.size, size, strict=True)]
+        (x, y, _), (dx, dy, _) = desk.position, reach
+        return (x - dx, x + dx), (y - dy, y + dy)
+
+    def with_block_at(self, x: float, y: float) -> "Scene":
+        """Return this scene with the task's block at x, y [m] as it is really to stand.
+
+        It comes as near to that as the desk's top is wide.
+
+        Raises
+        ------
+        StudioError
+            Where a number is not finite, or another block stands in the way.
+        """
+        if not (math.isfinite(x) and math.isfinite(y)):
+            raise StudioError(f"the block's place must be finite, not {x}, {y}")
+        task = self.blocks[0]
+        in_x, in_y = self.room_for_block
+        at = (min(max(x, in_x[0]), in_x[1]), min(max(y, in_y[0]), in_y[1]), task.position[2])
+        moved = replace(task, position=self._placed(at))
+        if any(_overlap(moved, other) for other in self.blocks[1:]):
+            raise StudioError("Another block stands there: put this one beside it")
+        return replace(self, blocks=(moved, *self.blocks[1:]))
+
     def _placed(self, position: Triple) -> Triple:
         x, y, z = position
         return (x, -y, z) if self.arms == "right" else position
+
+
+def _overlap(one: Block, other: Block) -> bool:
+    """Tell whether two blocks would stand in each other, seen from above."""
+    return all(
+        abs(a - b) < (wide + long) / 2
+        for a, b, wide, long in zip(
+            one.position[:2], other.position[:2], one.size, other.size, strict=False
+        )
+    )
 
 
 def _box(name: str) -> tuple[Triple, float, float]:

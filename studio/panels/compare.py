@@ -1,17 +1,21 @@
-"""4 Compare: Baxter alone beside a demonstration, and how far the two are apart."""
+"""4 Compare: Baxter alone beside a demonstration or a second robot, and how far they are apart."""
+
+from collections.abc import Sequence
 
 import numpy as np
 import viser
 
 from studio.engine import commands
-from studio.engine.performance import in_guards_words
-from studio.engine.report import joint_names
-from studio.engine.snapshot import Mode, Snapshot
-from studio.engine.teaching import Lesson, Reproduction
+from studio.engine.arms import short_names
+from studio.engine.compare_status import named
+from studio.engine.entry import Entry
+from studio.engine.field_picture import LEGS, FieldPicture
+from studio.engine.measured import Measured
+from studio.engine.snapshot import Snapshot
 from studio.panels import markup
 from studio.panels.chooser import DemonstrationChooser
 from studio.panels.inputs import Post
-from studio.panels.readiness import why_not_play, why_not_replay
+from studio.panels.readiness import FOLLOWING, why_not_play, why_not_replay
 
 
 class ComparePanel:
@@ -25,16 +29,20 @@ class ComparePanel:
         )
         self._play.on_click(lambda _: post(commands.PlayReproduction()))
         self._result = gui.add_html("")
-        gui.add_divider()
         self._chooser = DemonstrationChooser(gui, "Ghost", post)
         self._replay = gui.add_button(
             "Replay this demonstration",
-            hint="Baxter does the chosen demonstration again, as it was sent",
+            hint="Shows the person and the robot as they were recorded",
             color="gray",
             icon=viser.Icon.HISTORY,
         )
         self._replay.on_click(lambda _: post(commands.PlayDemonstration()))
         self._notes = gui.add_html("")
+        gui.add_divider()
+        self._block = BlockPart(gui, post)
+        gui.add_divider()
+        self._second = SecondPart(gui, post)
+        self._field = FieldPart(gui, post)
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
@@ -42,36 +50,157 @@ class ComparePanel:
         self._play.disabled, self._replay.disabled = bool(play), bool(replay)
         self._notes.content = markup.reasons([play, replay])
         self._chooser.draw(now)
-        self._result.content = _outcome(now)
+        self._result.content = outcome(now)
+        self._block.draw(now)
+        self._second.draw(now)
+        self._field.draw(now)
 
 
-def compared(lesson: Lesson, reproduction: Reproduction) -> str:
-    """Return how well the robot did alone, as HTML."""
-    down, error = reproduction.performance.block_down, reproduction.deviation
-    guarded = in_guards_words(reproduction.performance)
-    verdict = "✔ The block is down." if down else "✖ The block still stands."
-    size = "font-size:max(22px,2.8vh);font-weight:700;line-height:1.25"
-    degrees = np.degrees(error.joint_rmse)
-    joints = [(j, f"{d:.2f}") for j, d in zip(joint_names(lesson), degrees, strict=True)]
-    hand = [
-        ("mean", f"{1000.0 * error.hand_mean:.1f}"),
-        ("largest", f"{1000.0 * error.hand_max:.1f}"),
-        ("time-warped (DTW)", f"{1000.0 * error.hand_dtw:.1f}"),
-    ]
-    return (
-        markup.block(markup.text(verdict), size)
-        + markup.table(("joint", "RMSE [deg]"), joints)
-        + markup.table(("hand", "error [mm]"), hand)
-        + markup.note("What was measured alone, against the mean demonstration as it was sent.")
-        + (markup.note(guarded) if guarded else "")
+class BlockPart:
+    """Where the block stands: dragged in the 3D view, put back here."""
+
+    def __init__(self, gui: viser.GuiApi, post: Post) -> None:
+        self._words = gui.add_html("")
+        self._back = gui.add_button("Put the block back", color="gray", icon=viser.Icon.ARROW_BACK)
+        self._back.on_click(lambda _: post(commands.PutBlockBack()))
+
+    def draw(self, now: Snapshot) -> None:
+        """Show a snapshot."""
+        moved = now.compare.moved
+        self._back.disabled = not moved or now.mode in FOLLOWING
+        words = (
+            "<b>The block was moved.</b> A network that sees only time cannot know: play and see."
+            if moved
+            else "<b>Drag the yellow block</b> over the desk, then let Baxter do it alone: will it "
+            "hit?"
+        )
+        self._words.content = markup.block(words)
+
+
+class SecondPart:
+    """What is kept as B, to stand beside what is learned next."""
+
+    def __init__(self, gui: viser.GuiApi, post: Post) -> None:
+        self._words = gui.add_html("")
+        self._keep = gui.add_button(
+            "Keep this one to compare",
+            hint="Then learn something else: a second robot does this one beside it",
+            color="gray",
+            icon=viser.Icon.USERS,
+        )
+        self._keep.on_click(lambda _: post(commands.KeepToCompare()))
+        self._forget = gui.add_button("Send B away", color="gray", visible=False)
+        self._forget.on_click(lambda _: post(commands.ForgetKept()))
+
+    def draw(self, now: Snapshot) -> None:
+        """Show a snapshot."""
+        lesson, kept = now.lesson, now.compare.kept
+        self._forget.visible = kept is not None
+        self._keep.disabled = lesson is None or lesson is kept
+        self._words.content = second_words(now)
+
+
+class FieldPart:
+    """What is to be seen on the board of a learned field; nothing for learners without one."""
+
+    def __init__(self, gui: viser.GuiApi, post: Post) -> None:
+        self._words = gui.add_html("")
+        self._leg = gui.add_button_group("Field", LEGS, visible=False)
+        self._leg.on_click(lambda _: post(commands.ShowLeg(LEGS.index(self._leg.value))))
+
+    def draw(self, now: Snapshot) -> None:
+        """Show a snapshot."""
+        picture = now.compare.field
+        self._leg.visible = picture is not None and picture.legs > 1
+        self._words.content = "" if picture is None else field_words(picture)
+
+
+def second_words(now: Snapshot) -> str:
+    """Return what is kept as B, and what to do with it, as HTML."""
+    lesson, kept = now.lesson, now.compare.kept
+    if kept is None:
+        note = "" if lesson is not None else "Two robots: train first, then keep it as B."
+        return markup.note(note) if note else ""
+    name = f"<b>B: {markup.text(named(kept))}.</b> "
+    if lesson is None or lesson is kept:
+        return markup.block(f"{name}Learn something else in 3 Learn: that is A.")
+    return markup.block(f"{name}A: {markup.text(named(lesson))}. Both play on one timeline.")
+
+
+def field_words(picture: FieldPicture) -> str:
+    """Return what the board shows, as HTML."""
+    missed = np.degrees(picture.missed)
+    if picture.stable is None:
+        return markup.block(
+            "<b>The field on the board</b>: one plain field (Eq. 5) for both ways. Drag the "
+            "blue balls: its paths stop on the way or pass the goal, and end up to "
+            f"{missed:.0f}° from it."
+        )
+    return markup.block(
+        f"<b>The field on the board</b>, the way {LEGS[picture.leg]}. Drag the blue balls: thick "
+        f"green paths of the stable field all end in the goal; thin orange ones of the plain field "
+        f"(Eq. 5) end up to {missed:.0f}° from it."
     )
 
 
-def _outcome(now: Snapshot) -> str:
-    if now.lesson is not None and now.reproduction is not None:
-        return compared(now.lesson, now.reproduction)
-    if now.mode is Mode.PLAYING and now.alone:
-        so_far = f" The collision guard has changed {now.guarded_ticks} ticks so far."
-        waiting = "The numbers come when Baxter is through."
-        return markup.note(waiting + (so_far if now.guarded_ticks else ""))
-    return ""
+def outcome(now: Snapshot) -> str:
+    """Return what became of the block, and the table of all measures, as HTML."""
+    table = now.compare.table
+    if now.compare.playing and now.reproduction is None:
+        return markup.note("The numbers come when Baxter is through.")
+    if now.lesson is None or not any(is_robot(column) for column in table):
+        return ""
+    robots = [column for column in table if is_robot(column)]
+    verdicts = [verdict(robot, len(robots) > 1) for robot in robots]
+    size = "font-size:max(22px,2.8vh);font-weight:700;line-height:1.25"
+    return (
+        markup.block("<br>".join(markup.text(words) for words in verdicts), size)
+        + "".join(markup.note(guarded(robot, len(robots) > 1)) for robot in robots if robot.guarded)
+        + measured(table, now.lesson.taught.joints)
+        + "".join(markup.note(words) for words in [blocks_shown(now.entries)] if words)
+        + markup.note("Errors of what was measured, against the mean demonstration as it was sent.")
+    )
+
+
+def is_robot(column: Measured) -> bool:
+    """Tell whether a column is a robot's, not a demonstration's."""
+    return column.letter != ""
+
+
+def verdict(column: Measured, is_one_of_two: bool) -> str:
+    """Return what a robot made of the block."""
+    words = "✔ The block is down." if column.block_down else "✖ The block still stands."
+    return f"{column.letter}: {words}" if is_one_of_two else words
+
+
+def guarded(column: Measured, is_one_of_two: bool) -> str:
+    """Return what kept a robot from doing what was asked."""
+    return f"{column.letter}: {column.guarded}" if is_one_of_two else column.guarded
+
+
+def blocks_shown(entries: Sequence[Entry]) -> str:
+    """Return what became of the block in each demonstration that is learned from."""
+    shown = [
+        f"{entry.number} {'✔ down' if entry.block_down else '✖ stands'}".replace(" ", "\u00a0")
+        for entry in entries
+        if entry.included
+    ]
+    return f"The block in the demonstrations: {', '.join(shown)}." if shown else ""
+
+
+def measured(table: Sequence[Measured], joints: Sequence[str]) -> str:
+    """Return the measures of all that is compared as one table of HTML."""
+    head = ("", *(column.letter or "shown" for column in table))
+    rows = [
+        (f"{joint} [deg]", *(f"{np.degrees(each.deviation.joint_rmse[i]):.2f}" for each in table))
+        for i, joint in enumerate(short_names(joints))
+    ]
+    rows += [
+        ("hand, mean [mm]", *(f"{1e3 * each.deviation.hand_mean:.1f}" for each in table)),
+        ("hand, largest [mm]", *(f"{1e3 * each.deviation.hand_max:.1f}" for each in table)),
+        ("hand, warped [mm]", *(f"{1e3 * each.deviation.hand_dtw:.1f}" for each in table)),
+        ("acceleration [m/s²]", *(f"{each.acceleration:.2f}" for each in table)),
+        ("block", *("✔ down" if each.block_down else "✖ stands" for each in table)),
+    ]
+    names = "; ".join(f"{column.letter or 'shown'}: {column.name}" for column in table)
+    return markup.table(head, rows) + markup.note(names)

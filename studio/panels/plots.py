@@ -1,71 +1,49 @@
 """The evidence: what was taught, what the network learned, what Baxter did, joint by joint."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-import numpy as np
 import viser
 
-from studio.engine.demonstration import SAMPLES, DemonstrationSet, resample
-from studio.engine.performance import joint_columns
 from studio.engine.skeleton import SIDES, FloatArray
-from studio.engine.snapshot import Mode, Snapshot
+from studio.engine.snapshot import Snapshot
 from studio.panels import markup
-from studio.panels.palette import ENVELOPE, GHOST, MEAN, NETWORK, ROBOT, css
-from studio.panels.readiness import fitting
+from studio.panels.curves import Curves, curves_of, shown_columns
+from studio.panels.palette import ENVELOPE, GHOST, LIMIT, MEAN, NETWORK, ROBOT, SECOND, css
 
-HEIGHT = 118  # [px] of a plot
-SMALLEST_RANGE, ROUND = 15.0, 5.0  # [deg] of the angle's axis
-_NEW_POINTS = 6  # ticks of playing between two updates: 5 Hz
-
-
-@dataclass(frozen=True, eq=False)
-class Curves:
-    """What the plots show, over the same stamps; NaN where there is nothing."""
-
-    joints: tuple[str, ...]  # D names
-    stamps: FloatArray  # (142,) [s]
-    low: FloatArray  # (142, D) [deg] the demonstrations' envelope
-    high: FloatArray  # (142, D) [deg]
-    mean: FloatArray  # (142, D) [deg]
-    chosen: FloatArray  # (142, D) [deg]
-    network: FloatArray  # (142, D) [deg]
-    robot: FloatArray  # (142, D) [deg] measured while it does it alone
-
-    def of_joint(self, column: int) -> tuple[FloatArray, ...]:
-        """Return a plot's series: the stamps, then each curve (142,)."""
-        curves = (self.low, self.high, self.mean, self.chosen, self.network, self.robot)
-        return self.stamps, *(curve[:, column] for curve in curves)
+HEIGHT = 100  # [px] of a plot: four of them stand under each other at 768 px
+CLOSE, WIDE, OFF = "about the curves", "up to the limits", "no plots"
+_A_SECOND = 5  # updates while the playhead moves: each sends a plot's data anew
 
 
 class EvidencePanel:
-    """One plot a joint, and what its lines are; of two arms one at a time, so that all is seen."""
+    """One plot a joint, and what its lines are; of two arms one at a time, so that all is seen.
+
+    Whether a browser shows this tab it does not tell, so people can turn the plots off: what is not
+    shown is not drawn.
+    """
 
     def __init__(self, gui: viser.GuiApi, tab: viser.GuiTabHandle) -> None:
         self._gui, self._tab = gui, tab
+        self._axes = gui.add_dropdown(
+            "Axes",
+            (CLOSE, WIDE, OFF),
+            hint="How much of each joint's range is shown; off spares a slow browser",
+        )
         self._arm = gui.add_dropdown("Arm", SIDES, visible=False)
         self._legend = gui.add_html(_NOTHING)
         self._plots: list[JointPlot] = []
-        self._trace = Trace()
         self._drawn: object = None
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot, if something in it is new."""
-        self._trace.observe(now)
-        state = (
-            now.entries,
-            now.chosen,
-            now.lesson,
-            now.reproduction,
-            now.choices.joints,
-            len(self._trace.times) // _NEW_POINTS,
-            self._arm.value,
-        )
+        chosen = self._axes.value
+        state = _state(now), chosen, self._arm.value
         if state == self._drawn:
             return
         self._drawn = state
-        curves = curves_of(now, self._trace)
-        self._legend.content = _NOTHING if curves is None else _LEGEND
+        curves = None if chosen == OFF else curves_of(now)
+        empty = _HIDDEN if chosen == OFF else _NOTHING
+        self._legend.content = empty if curves is None else _LEGEND
         columns = () if curves is None else shown_columns(curves.joints, self._arm.value)
         self._arm.visible = curves is not None and len(columns) < len(curves.joints)
         for number, plot in enumerate(self._plots):
@@ -74,123 +52,74 @@ class EvidencePanel:
             self._show(curves, columns)
 
     def _show(self, curves: Curves, columns: Sequence[int]) -> None:
+        to_limits = self._axes.value == WIDE
         for number, column in enumerate(columns):
-            joint, data = curves.joints[column], curves.of_joint(column)
             if number == len(self._plots):
                 with self._tab:
-                    self._plots.append(JointPlot(self._gui, joint, data))
+                    self._plots.append(JointPlot(self._gui, curves, column, to_limits))
             else:
-                self._plots[number].draw(joint, data)
+                self._plots[number].draw(curves, column, to_limits)
 
 
 class JointPlot:
     """One joint's plot. Only its data change often: anything else builds the chart anew."""
 
-    def __init__(self, gui: viser.GuiApi, joint: str, data: tuple[FloatArray, ...]) -> None:
-        self._frame = _frame(joint, data)
-        title, scales = self._frame
+    def __init__(self, gui: viser.GuiApi, curves: Curves, column: int, to_limits: bool) -> None:
+        self._frame = _frame(curves, column, to_limits)
+        title, axis, thin = self._frame
         self.chart = gui.add_uplot(
-            data,
-            _SERIES,
+            curves.of_joint(column, axis),
+            _series(thin),
             title=title,
             bands=_BANDS,
-            scales=scales,
+            scales=_scales(curves.stamps, axis),
             axes=_AXES,
             legend={"show": False},
             height=HEIGHT,
             padding=(8, 16, 0, 0),
         )
+        self._end = float(curves.stamps[-1])
 
-    def draw(self, joint: str, data: tuple[FloatArray, ...]) -> None:
+    def draw(self, curves: Curves, column: int, to_limits: bool) -> None:
         """Show other data, and another joint if need be."""
-        frame = _frame(joint, data)
-        if frame != self._frame:
-            self._frame = frame
-            self.chart.title, self.chart.scales = frame
+        frame = _frame(curves, column, to_limits)
+        title, axis, thin = frame
+        data, end = curves.of_joint(column, axis), float(curves.stamps[-1])
+        if thin != self._frame[2]:
+            self.chart.series, self.chart.data = _series(thin), data
+        if (frame, end) != (self._frame, self._end):
+            self.chart.title, self.chart.scales = title, _scales(curves.stamps, axis)
+            self._frame, self._end = frame, end
         self.chart.data = data
 
 
-class Trace:
-    """The joints as the robot does it alone, gathered while it plays."""
-
-    def __init__(self) -> None:
-        self.times: list[float] = []  # [s]
-        self.joints: list[FloatArray] = []  # (15,) [rad] each
-
-    def observe(self, now: Snapshot) -> None:
-        """Take note of a snapshot; another run begins anew."""
-        if now.mode is not Mode.PLAYING or not now.alone:
-            return
-        if self.times and now.time < self.times[-1]:
-            self.times, self.joints = [], []
-        if not self.times or now.time > self.times[-1]:
-            self.times.append(now.time)
-            self.joints.append(now.world.joint_positions)
-
-    def at(self, stamps: FloatArray) -> FloatArray:
-        """Return all joints (N, 15) [rad] at stamps (N,) [s], NaN after the newest."""
-        columns = np.array(self.joints).T
-        return np.column_stack(
-            [np.interp(stamps, self.times, column, right=np.nan) for column in columns]
-        )
-
-
-def shown_columns(joints: Sequence[str], side: str) -> list[int]:
-    """Return which joints' plots are shown: of two arms' joints one side's, else all."""
-    of_side = [i for i, joint in enumerate(joints) if joint.startswith(f"{side}_")]
-    return of_side or list(range(len(joints)))
-
-
-def curves_of(now: Snapshot, trace: Trace) -> Curves | None:
-    """Return what is known of the taught motion, or None where nothing was taught."""
-    listed = [entry.demonstration for entry in fitting(now)]
-    if now.lesson is None and not listed:
-        return None
-    taught = DemonstrationSet.of(listed) if now.lesson is None else now.lesson.taught
-    stamps = np.linspace(0.0, taught.duration, SAMPLES)
-    nothing = np.full_like(taught.mean, np.nan)
-    chosen = now.entries[now.chosen].demonstration if now.entries else None
-    alike = chosen is not None and chosen.joints == taught.joints
-    return Curves(
-        joints=taught.joints,
-        stamps=stamps,
-        low=np.degrees(taught.rows.min(axis=0)),
-        high=np.degrees(taught.rows.max(axis=0)),
-        mean=np.degrees(taught.mean),
-        chosen=np.degrees(resample(chosen)) if chosen is not None and alike else nothing,
-        network=nothing if now.lesson is None else np.degrees(now.lesson.curve),
-        robot=_robot(now, trace, taught, stamps, nothing),
+def _state(now: Snapshot) -> tuple[object, ...]:
+    """Return what the plots depend on."""
+    playing, timeline = now.compare.playing, now.compare.timeline
+    return (
+        now.entries,
+        now.chosen,
+        now.lesson,
+        now.reproduction,
+        now.choices.joints,
+        tuple(alone.lesson for alone in playing),
+        timeline.title,
+        timeline.title and (int(now.time * _A_SECOND) if timeline.is_playing else now.time),
     )
 
 
-def _robot(
-    now: Snapshot, trace: Trace, taught: DemonstrationSet, stamps: FloatArray, nothing: FloatArray
-) -> FloatArray:
-    """Return what was measured (142, D) [deg], as far as the robot has come."""
-    columns = joint_columns(taught.joints)
-    if now.reproduction is not None:
-        return np.degrees(now.reproduction.performance.measured_at(stamps)[:, columns])
-    if now.mode is Mode.PLAYING and now.alone and trace.times:
-        return np.degrees(trace.at(stamps)[:, columns])
-    return nothing
+def _frame(curves: Curves, column: int, to_limits: bool) -> tuple[str, tuple[float, float], int]:
+    """Return a plot's title, the bounds of its axis [deg], and how many thin lines it has."""
+    lower, upper = curves.limits[:, column]
+    title = f"{curves.joints[column]} [deg] · limits {lower:.0f} to {upper:.0f}"
+    return title, curves.axis_of(column, to_limits), len(curves.thin)
 
 
-def axis_range(values: FloatArray) -> tuple[float, float]:
-    """Return round bounds [deg] about all that is known, wide enough not to make much of little."""
-    lowest, highest = float(np.nanmin(values)), float(np.nanmax(values))
-    short = max(0.0, SMALLEST_RANGE - (highest - lowest)) / 2.0
-    lower, upper = (lowest - short) / ROUND, (highest + short) / ROUND
-    return ROUND * float(np.floor(lower)), ROUND * float(np.ceil(upper))
-
-
-def _frame(joint: str, data: tuple[FloatArray, ...]) -> tuple[str, dict[str, viser.uplot.Scale]]:
-    """Return a plot's title and axes."""
-    stamps, *curves = data
-    scales = {
+def _scales(stamps: FloatArray, axis: tuple[float, float]) -> dict[str, viser.uplot.Scale]:
+    return {
         "x": viser.uplot.Scale(time=False, range=(0.0, float(stamps[-1]))),
-        "y": viser.uplot.Scale(range=axis_range(np.concatenate(curves))),
+        "y": viser.uplot.Scale(range=axis),
     }
-    return f"{joint} [deg] over time [s]", scales
 
 
 def _line(label: str, stroke: str, width: float, dash: tuple[int, ...] = ()) -> viser.uplot.Series:
@@ -202,18 +131,27 @@ def _line(label: str, stroke: str, width: float, dash: tuple[int, ...] = ()) -> 
     return line
 
 
-_SERIES = (
-    viser.uplot.Series(label="time [s]"),
-    _line("lowest", css(ENVELOPE, 0.5), 0.5),
-    _line("highest", css(ENVELOPE, 0.5), 0.5),
-    _line("mean", css(MEAN), 1.5, (2, 3)),
-    _line("chosen", css(GHOST), 1.5, (8, 4)),
-    _line("network", css(NETWORK), 2.0),
-    _line("robot", css(ROBOT), 3.0),
-)
+def _series(thin: int) -> tuple[viser.uplot.Series, ...]:
+    return (
+        viser.uplot.Series(label="time [s]"),
+        _line("lowest", css(ENVELOPE, 0.5), 0.5),
+        _line("highest", css(ENVELOPE, 0.5), 0.5),
+        *(_line(f"demonstration {n + 1}", css(ENVELOPE, 0.8), 1.0) for n in range(thin)),
+        _line("mean", css(MEAN), 1.5, (2, 3)),
+        _line("chosen", css(GHOST), 1.5, (8, 4)),
+        _line("network", css(NETWORK), 2.0),
+        _line("robot", css(ROBOT), 3.0),
+        _line("robot B", css(SECOND), 3.0, (4, 2)),
+        _line("lower limit", css(LIMIT), 2.0, (1, 4)),
+        _line("upper limit", css(LIMIT), 2.0, (1, 4)),
+        _line("playhead", css(MEAN, 0.8), 1.5),
+    )
+
+
 _BANDS = (viser.uplot.Band(series=(2, 1), fill=css(ENVELOPE, 0.25)),)
 _AXES = (viser.uplot.Axis(size=26), viser.uplot.Axis(size=42))  # [px] for the numbers
 _NOTHING = markup.note("Nothing has been taught yet: the plots come with the first demonstration.")
+_HIDDEN = markup.note("The plots are off: choose other axes to draw them.")
 
 
 def _key(sample: str, words: str) -> str:
@@ -225,10 +163,12 @@ def _key(sample: str, words: str) -> str:
 
 
 _LEGEND = markup.block(
-    _key(f"height:.8em;background:{css(ENVELOPE, 0.3)}", "all demonstrations")
-    + _key(f"border-top:2px dotted {css(MEAN)}", "their mean")
+    _key(f"height:.8em;background:{css(ENVELOPE, 0.3)};border-top:1px solid {css(ENVELOPE)}", "all")
+    + _key(f"border-top:2px dotted {css(MEAN)}", "mean")
     + _key(f"border-top:2px dashed {css(GHOST)}", "chosen (ghost)")
     + _key(f"border-top:2px solid {css(NETWORK)}", "network")
-    + _key(f"border-top:4px solid {css(ROBOT)}", "Baxter alone"),
+    + _key(f"border-top:4px solid {css(ROBOT)}", "Baxter alone")
+    + _key(f"border-top:4px dashed {css(SECOND)}", "B")
+    + _key(f"border-top:3px dotted {css(LIMIT)}", "limit"),
     "font-size:.85em;margin-top:.5em",
 )

@@ -9,49 +9,63 @@ from studio.engine.arms import Arms
 from studio.engine.skeleton import FloatArray
 from studio.engine.world import Scene
 from studio.panels.poses import w_first
+from studio.panels.viewpoint import ALONE
 
 _BLOCK_COLORS = ((244, 180, 40), (120, 150, 175), (150, 165, 120))
 _DESK_COLOR, _LEG = (188, 160, 128), 0.05  # [m]
+STILL = 1e-5  # [m] what moved less is not drawn anew
 _SKY, _GROUND = (238, 241, 245), (190, 201, 211)
 
 
 class Furniture:
-    """The desk and the blocks, as they stand for what is taught."""
+    """The desk and the blocks, as they stand for what is taught, under ``root`` in the tree."""
 
-    def __init__(self, scene: viser.SceneApi, arms: Arms) -> None:
-        placed = Scene(arms=arms)
+    def __init__(self, scene: viser.SceneApi, root: str = "") -> None:
+        self._scene, self._root = scene, root
+        self._arms: Arms | None = None  # for which it stands
+        self.blocks: list[viser.BoxHandle] = []  # the first is the task's; others for other arms
+        self._drawn = np.zeros((0, 7))  # poses
+
+    def draw(self, arms: Arms, poses: FloatArray) -> None:
+        """Put the blocks where poses (B, 7), x y z [m] qx qy qz qw, have them."""
+        if arms != self._arms:
+            self._arms = arms
+            self._furnish(Scene(arms=arms))
+        for block, before, pose in zip(self.blocks, self._drawn, poses, strict=True):
+            if np.abs(pose - before).max() > STILL:
+                block.position, block.wxyz = pose[:3], w_first(pose[3:])
+                before[:] = pose
+
+    def _furnish(self, placed: Scene) -> None:
+        scene, root = self._scene, self._root
         (x, y, z), (length, width, thick) = placed.placed_desk.position, placed.placed_desk.size
         scene.add_box(
-            "/desk", color=_DESK_COLOR, dimensions=(length, width, thick), position=(x, y, z)
+            f"{root}/desk", color=_DESK_COLOR, dimensions=(length, width, thick), position=(x, y, z)
         )
         height = z - thick / 2
         for name, dx, dy in (("a", 1, 1), ("b", 1, -1), ("c", -1, 1), ("d", -1, -1)):
             scene.add_box(
-                f"/desk/leg_{name}",
+                f"{root}/desk/leg_{name}",
                 color=_DESK_COLOR,
                 dimensions=(_LEG, _LEG, height),
                 position=(dx * (length - _LEG) / 2, dy * (width - _LEG) / 2, height / 2 - z),
             )
-        self._blocks = [
+        self.blocks = [
             scene.add_box(
-                f"/blocks/{number}",
+                f"{root}/blocks/{number}",
                 color=_BLOCK_COLORS[number % len(_BLOCK_COLORS)],
                 dimensions=block.size,
                 position=block.position,
             )
             for number, block in enumerate(placed.placed_blocks)
         ]
-
-    def draw(self, poses: FloatArray) -> None:
-        """Put the blocks where poses (B, 7), x y z [m] qx qy qz qw, have them."""
-        for block, pose in zip(self._blocks, poses, strict=True):
-            block.position, block.wxyz = pose[:3], w_first(pose[3:])
+        self._drawn = np.full((len(self.blocks), 7), np.inf)
 
 
 def set_the_stage(server: viser.ViserServer) -> None:
     """Set camera, light, backdrop and floor."""
     camera = server.initial_camera
-    camera.position, camera.look_at = (3.6, 0.75, 1.95), (0.25, -0.34, 0.84)
+    camera.position, camera.look_at = ALONE.position, ALONE.look_at
     camera.fov = math.radians(43.0)
     scene = server.scene
     scene.configure_environment_map("studio", environment_intensity=0.25)

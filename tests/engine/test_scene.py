@@ -63,3 +63,39 @@ def test_impossible_desks_and_scenes_are_refused() -> None:
         Scene(blocks=())
     with pytest.raises(StudioError, match="left arm, the right or both"):
         Scene(arms="neither")  # type: ignore[arg-type]
+
+
+def test_a_block_stands_where_it_is_put_and_the_others_where_they_were() -> None:
+    moved = Scene().with_block_at(0.9, -0.1)
+    assert moved.placed_blocks[0].position == (0.9, -0.1, BLOCK.position[2])
+    assert moved.blocks[1:] == Scene().blocks[1:]
+    assert moved != Scene()
+    assert moved.with_block_at(*BLOCK.position[:2]) == Scene()
+
+
+@pytest.mark.parametrize("arms", ["left", "right", "both"])
+def test_a_block_is_put_where_people_see_it_whichever_arm_is_taught(arms) -> None:
+    y = 0.1 if arms == "right" else -0.1
+    x_room, y_room = Scene(arms=arms).room_for_block
+    assert x_room[0] < 0.9 < x_room[1]
+    assert y_room[0] < y < y_room[1]
+    assert Scene(arms=arms).with_block_at(0.9, y).placed_blocks[0].position[:2] == (0.9, y)
+
+
+@pytest.mark.parametrize(("x", "y"), [(-9.0, -9.0), (9.0, -9.0), (0.8, -9.0), (9.0, 0.2)])
+@pytest.mark.parametrize("arms", ["left", "right"])
+def test_a_block_never_leaves_the_desk(arms, x: float, y: float) -> None:
+    side = -1.0 if arms == "right" else 1.0
+    moved = Scene(arms=arms).with_block_at(x, side * y)
+    desk, block = moved.placed_desk, moved.placed_blocks[0]
+    for axis in (0, 1):
+        reach = abs(block.position[axis] - desk.position[axis]) + block.size[axis] / 2
+        assert reach <= desk.size[axis] / 2 + 1e-9
+
+
+def test_a_block_is_not_put_into_another_one_nor_nowhere() -> None:
+    x, y, _ = Scene().blocks[2].position
+    with pytest.raises(StudioError, match="Another block stands there"):
+        Scene().with_block_at(x, y + 0.02)
+    with pytest.raises(StudioError, match="finite"):
+        Scene().with_block_at(float("nan"), 0.0)

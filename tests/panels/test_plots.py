@@ -1,124 +1,94 @@
-"""The plots show what was taught, learned and done, and nothing that is not known yet."""
+"""Plots are sent only while they are drawn, and built anew only where more than data changes."""
+
+from dataclasses import replace
 
 import numpy as np
-import pytest
-from hypothesis import given, settings, strategies
-from hypothesis.extra import numpy as arrays
 
-from studio.engine.arms import learned_joints
-from studio.engine.demonstration import SAMPLES, resample
-from studio.panels.plots import (
-    SMALLEST_RANGE,
-    JointPlot,
-    Trace,
-    axis_range,
-    curves_of,
-    shown_columns,
-)
+from studio.panels.curves import curves_of
+from studio.panels.plots import OFF, WIDE, EvidencePanel, JointPlot
+from tests.panels.controls import Gui, Tab
 
 
-def test_nothing_taught_nothing_shown(lesson) -> None:
-    assert curves_of(lesson["start"], Trace()) is None
-    assert curves_of(lesson["recording"], Trace()) is None
-
-
-def test_of_two_arms_one_is_shown_and_of_one_arm_all() -> None:
-    both = learned_joints("both", "exact")
-    for side, columns in (("left", [0, 1, 2, 3]), ("right", [4, 5, 6, 7])):
-        assert shown_columns(both, side) == columns
-        for arms in ("left", "right"):
-            assert shown_columns(learned_joints(arms, "paper"), side) == [0, 1, 2]
-
-
-def test_all_series_of_a_plot_are_equally_long_and_few(lesson) -> None:
-    """The chart library takes unequal lengths in silence."""
-    for state in ("recorded", "trained", "played"):
-        curves = curves_of(lesson[state], Trace())
-        assert curves.joints == ("left_s0", "left_s1", "left_e0", "left_e1")
-        for column in range(len(curves.joints)):
-            series = curves.of_joint(column)
-            assert {len(each) for each in series} == {SAMPLES}
-            assert len(series) == 7
-    assert SAMPLES <= 300
-
-
-def test_what_is_not_known_is_not_drawn(lesson) -> None:
-    def known(state: str) -> list[bool]:
-        curves = curves_of(lesson[state], Trace())
-        shown = (curves.mean, curves.chosen, curves.network, curves.robot)
-        return [bool(np.isfinite(each).all()) for each in shown]
-
-    assert known("recorded") == [True, True, False, False]
-    assert known("trained") == [True, True, True, False]
-    assert known("played") == [True, True, True, True]
-    assert np.isnan(curves_of(lesson["recorded"], Trace()).network).all()
-
-
-def test_curves_are_the_real_data_in_degrees(lesson) -> None:
-    now = lesson["played"]
-    curves = curves_of(now, Trace())
-    taught = now.lesson.taught
-    assert curves.stamps[-1] == pytest.approx(taught.duration)
-    np.testing.assert_allclose(np.radians(curves.network), now.lesson.curve)
-    np.testing.assert_allclose(np.radians(curves.mean), taught.mean)
-    chosen = now.entries[now.chosen].demonstration
-    np.testing.assert_allclose(np.radians(curves.chosen), resample(chosen))
-    assert (curves.low <= curves.mean + 1e-9).all()
-    assert (curves.mean <= curves.high + 1e-9).all()
-    rmse = np.sqrt(np.mean(np.radians(curves.robot - curves.mean) ** 2, axis=0))
-    np.testing.assert_allclose(rmse, now.reproduction.deviation.joint_rmse)
-
-
-def test_while_it_plays_the_robots_line_ends_at_now(lesson) -> None:
-    trace = Trace()
-    for state in ("playing", "halfway"):
-        trace.observe(lesson[state])
-    robot = curves_of(lesson["halfway"], trace).robot[:, 0]
-    stamps = curves_of(lesson["halfway"], trace).stamps
-    np.testing.assert_array_equal(np.isfinite(robot), stamps <= lesson["halfway"].time)
-
-
-def test_a_new_run_begins_a_new_trace(lesson) -> None:
-    trace = Trace()
-    for state in ("playing", "halfway", "halfway", "played", "replaying"):
-        trace.observe(lesson[state])
-    assert trace.times == [lesson["playing"].time, lesson["halfway"].time]
-    trace.observe(lesson["playing"])
-    assert trace.times == [lesson["playing"].time]
-
-
-@given(arrays.arrays(np.float64, 20, elements=strategies.floats(-200.0, 200.0)))
-@settings(deadline=None, derandomize=True)
-def test_an_axis_holds_all_and_exaggerates_nothing(values) -> None:
-    values[3] = np.nan
-    lower, upper = axis_range(values)
-    assert lower <= np.nanmin(values)
-    assert np.nanmax(values) <= upper
-    assert upper - lower >= SMALLEST_RANGE
-    assert upper - lower <= max(np.nanmax(values) - np.nanmin(values), SMALLEST_RANGE) + 10.0
-
-
-class Chart:
-    """What a plot's handle is told."""
-
-    def __init__(self) -> None:
-        self.__dict__["told"] = []
-
-    def __setattr__(self, name: str, value: object) -> None:
-        self.told.append(name)
-
-
-class Gui:
-    def add_uplot(self, *_: object, **__: object) -> Chart:
-        return Chart()
+def panel() -> tuple[EvidencePanel, Gui]:
+    gui = Gui()
+    return EvidencePanel(gui, Tab()), gui
 
 
 def test_a_chart_is_built_anew_only_where_its_frame_changes(lesson) -> None:
     """The browser tears a chart down for new axes; five times a second that leaves it blank."""
-    curves = curves_of(lesson["played"], Trace())
-    data = curves.of_joint(0)
-    plot = JointPlot(Gui(), "left_s0", data)
-    plot.draw("left_s0", (*data[:-1], data[-1] + 0.01))
+    curves = curves_of(lesson["played"])
+    plot = JointPlot(Gui(), curves, 0, to_limits=False)
+    plot.draw(replace(curves, network=curves.network + 0.01), 0, to_limits=False)
     assert plot.chart.told == ["data"]
-    plot.draw("left_s0", (*data[:-1], data[-1] + 90.0))
+    plot.draw(replace(curves, network=curves.network + 90.0), 0, to_limits=False)
     assert sorted(plot.chart.told[1:]) == ["data", "scales", "title"]
+
+
+def test_series_and_data_are_as_many_whatever_was_taught(lesson) -> None:
+    curves = curves_of(lesson["trained"])
+    plot = JointPlot(Gui(), curves, 0, to_limits=False)
+    for count in (2, 1, 0):
+        plot.draw(replace(curves, thin=curves.thin[:count]), 0, to_limits=False)
+        assert len(plot.chart.data) == len(plot.chart.series) == 11 + count
+
+
+def test_a_title_says_the_limits_that_lie_outside(lesson) -> None:
+    curves = curves_of(lesson["trained"])
+    plot = JointPlot(Gui(), curves, 1, to_limits=False)
+    lower, upper = curves.limits[:, 1]
+    assert f"limits {lower:.0f} to {upper:.0f}" in plot.chart.title
+
+
+def test_a_still_snapshot_sends_nothing_and_a_playhead_data_alone(lesson) -> None:
+    evidence, gui = panel()
+    evidence.draw(lesson["played"])
+    assert len(gui.charts) == 4
+    told = [len(chart.told) for chart in gui.charts]
+    evidence.draw(lesson["played"])
+    assert [len(chart.told) for chart in gui.charts] == told
+    evidence.draw(replace(lesson["played"], time=1.0))
+    for chart, before in zip(gui.charts, told, strict=True):
+        assert set(chart.told[before:]) <= {"data", "visible"}
+        assert "data" in chart.told[before:]
+
+
+def test_a_robot_that_merely_stands_sends_nothing(lesson) -> None:
+    evidence, gui = panel()
+    evidence.draw(lesson["trained"])
+    told = [len(chart.told) for chart in gui.charts]
+    evidence.draw(replace(lesson["trained"], time=lesson["trained"].time + 9.0))
+    assert [len(chart.told) for chart in gui.charts] == told
+
+
+def test_what_is_not_drawn_is_not_sent(lesson) -> None:
+    evidence, gui = panel()
+    evidence.draw(lesson["played"])
+    gui["Axes"].value = OFF
+    evidence.draw(lesson["played"])
+    assert not any(chart.visible for chart in gui.charts)
+    assert "plots are off" in gui.words
+    told = [list(chart.told) for chart in gui.charts]
+    for time in np.linspace(0.0, 5.0, 20):
+        evidence.draw(replace(lesson["played"], time=float(time)))
+    assert all(
+        set(chart.told[len(before) :]) <= {"visible"}
+        for chart, before in zip(gui.charts, told, strict=True)
+    )
+
+
+def test_without_anything_taught_it_says_so(lesson) -> None:
+    evidence, gui = panel()
+    evidence.draw(lesson["start"])
+    assert gui.charts == []
+    assert "Nothing has been taught yet" in gui.words
+
+
+def test_the_axes_go_up_to_the_limits_where_asked(lesson) -> None:
+    evidence, gui = panel()
+    gui["Axes"].value = WIDE
+    evidence.draw(lesson["trained"])
+    curves = curves_of(lesson["trained"])
+    for column, chart in enumerate(gui.charts):
+        lower, upper = chart.scales["y"]["range"]
+        assert lower <= curves.limits[0, column]
+        assert upper >= curves.limits[1, column]

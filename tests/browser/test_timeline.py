@@ -1,0 +1,42 @@
+"""The timeline under a real pointer and real keys."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page
+
+from studio.engine.robot import CONTROL_PERIOD
+from studio.engine.snapshot import Mode
+from tests.browser.opened import Studio, studio_on
+from tests.engine.cards_at_hand import takes
+from tests.engine.lessons_at_hand import lesson
+
+
+@pytest.fixture
+def studio(page: Page, tmp_path: Path) -> Iterator[Studio]:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    with studio_on(page, tmp_path / "recordings", 1.0) as opened:
+        opened.loop.session._listed.add(takes(2))
+        opened.loop.session._learning.lesson = lesson()
+        opened.waits(lambda now: now.lesson is not None)
+        yield opened
+
+
+def test_play_pause_and_step_by_button_and_by_key(studio: Studio) -> None:
+    studio.press("▶ Play")
+    studio.waits(lambda now: now.mode is Mode.PLAYING and now.time > 0.3)
+    studio.press("❚❚ Pause")
+    paused = studio.waits(lambda now: now.mode is Mode.IDLE).time
+    studio.press("step ▶")
+    on = studio.waits(lambda now: now.time != paused).time
+    assert 0.0 < on - paused < CONTROL_PERIOD * 1.01
+    studio.page.keyboard.press("ArrowLeft")
+    back = studio.waits(lambda now: now.time != on).time
+    assert on - back == pytest.approx(CONTROL_PERIOD)
+    studio.page.keyboard.press("Space")
+    studio.waits(lambda now: now.mode is Mode.PLAYING)
+    studio.press("▶|")
+    ended = studio.waits(lambda now: now.reproduction is not None)
+    assert ended.time == pytest.approx(ended.duration)
+    studio.shows("The block is down.")
