@@ -1,4 +1,4 @@
-"""The studio's page: a viser server, the panels on it, and the thread that draws snapshots."""
+"""The studio's page: a viser server, what lies on it, and the thread that draws snapshots."""
 
 import contextlib
 import io
@@ -6,27 +6,24 @@ import threading
 
 import viser
 
-from studio.engine.clock import LiveLoop
+from studio.engine.clock import LiveLoop, now
 from studio.engine.commands import Command
 from studio.engine.errors import StudioError
 from studio.engine.snapshot import Snapshot
-from studio.panels.compare import ComparePanel
-from studio.panels.gate import GatePanel
-from studio.panels.learn import LearnPanel
+from studio.panels.arcs import ArcsView
+from studio.panels.control import Control
+from studio.panels.first_page import TITLE
+from studio.panels.front import Front
+from studio.panels.handles import Handles
 from studio.panels.meshes import FINE
-from studio.panels.palette import BRAND
-from studio.panels.plots import EvidencePanel
+from studio.panels.page import Page
 from studio.panels.scene import SceneView
-from studio.panels.source import SourcePanel
-from studio.panels.status import MessagePanel, StatusPanel
-from studio.panels.teach import TeachPanel
+from studio.panels.tour import Guide
 from studio.panels.uploads import Uploads
 from studio.panels.visitors import turn_strangers_away
 
-TITLE = "Baxter's teaching studio"
 FRAME = 1.0 / 30.0  # [s] between two pictures of the scene
 PANEL_EVERY = 3  # pictures between two of the panels: 10 Hz
-STEPS_WIDTH, EVIDENCE_WIDTH = 372, 310  # [px]; at 1366 px half of the page is left for the scene
 
 _NO_MESHES = (
     "Baxter is drawn in simple shapes, since its meshes were not found: pip install "
@@ -47,18 +44,41 @@ class App:
     detail
         How fine Baxter is drawn [m]; 0.02 is plain, and ten times lighter for a browser that draws
         without a graphics card.
+
+    Raises
+    ------
+    StudioError
+        Where the page cannot be served at that address.
     """
 
     def __init__(
         self, loop: LiveLoop, host: str = "127.0.0.1", port: int = 8080, detail: float = FINE
     ) -> None:
-        self._loop = loop
+        self._loop, self._host = loop, host
         with _quiet():
-            self._server = viser.ViserServer(host, port, label=TITLE, verbose=False)
-        turn_strangers_away(self._server)
+            self._server = viser.ViserServer("127.0.0.1", 0, label=TITLE, verbose=False)
+        turn_strangers_away(self._server, host)
+        try:
+            self._front = Front(self._server.get_event_loop(), host, port, self._server.get_port())
+        except StudioError:
+            self._stop_server()
+            raise
         self._uploads = Uploads()
-        self._lay_out(self._server.gui)
-        self.scene = SceneView(self._server, detail)
+        self._guide = Guide(self._send, now)
+        self._control = Control(self._server, self._by_hand, now)
+        post = self._control.post
+        self._handles = Handles(self._server.scene, post)
+        self._arcs = ArcsView(self._server.scene)
+        self.page = Page(
+            self._server.gui,
+            post,
+            self._control.allows,
+            self._guide,
+            self._uploads,
+            self._arcs,
+            self._deliver,
+        )
+        self.scene = SceneView(self._server, detail, post)
         self._closing = threading.Event()
         self._drawing = threading.Thread(target=self._draw_until_closed, name="drawing")
         self._drawing.start()
@@ -66,17 +86,16 @@ class App:
     @property
     def url(self) -> str:
         """The page's address; the port is the one that was free, not always the one asked for."""
-        host = self._server.get_host()
-        shown = "localhost" if host in ("0.0.0.0", "::") else host
-        return f"http://{shown}:{self._server.get_port()}"
+        shown = "localhost" if self._host in ("0.0.0.0", "::") else self._host
+        return f"http://{shown}:{self._front.port}"
 
     def close(self) -> None:
         """Take the page away."""
         self._closing.set()
         self._drawing.join()
         self.scene.wait()
-        with _quiet():
-            self._server.stop()
+        self._front.close()
+        self._stop_server()
         self._uploads.close()
 
     def __enter__(self) -> "App":
@@ -85,55 +104,49 @@ class App:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _lay_out(self, gui: viser.GuiApi) -> None:
-        """Dock the steps to the left, under what is always in sight; the evidence to the right."""
-        gui.configure_theme(brand_color=BRAND, show_logo=False, show_share_button=False)
-        status, gate = StatusPanel(gui, self._post), GatePanel(gui)
-        self._messages = MessagePanel(gui)
-        steps, evidence = gui.add_panel(), gui.add_panel()
-        with steps.add_tab("1 Source"):
-            source = SourcePanel(gui, self._post, self._uploads)
-        with steps.add_tab("2 Teach"):
-            teach = TeachPanel(gui, self._post)
-        with steps.add_tab("3 Learn"):
-            learn = LearnPanel(gui, self._post)
-        with steps.add_tab("4 Compare"):
-            compare = ComparePanel(gui, self._post)
-        with evidence.add_tab("Evidence") as tab:
-            plots = EvidencePanel(gui, tab)
-        self._panels = (status, gate, self._messages, source, teach, learn, compare, plots)
-        gui.main_panel.dock_left()
-        gui.main_panel.set_width(STEPS_WIDTH)
-        steps.dock_below(gui.main_panel)
-        evidence.dock_right()
-        evidence.set_width(EVIDENCE_WIDTH)
+    def _stop_server(self) -> None:
+        with _quiet():
+            self._server.stop()
 
-    def _post(self, command: Command) -> None:
+    def _by_hand(self, command: Command) -> None:
+        """Pass on what a person asks for, who thereby leaves the tour."""
+        self._guide.interrupt()
+        self._send(command)
+
+    def _send(self, command: Command) -> None:
         # Where the engine has ended, the page says so already.
         with contextlib.suppress(StudioError):
             self._loop.session.post(command)
+
+    def _deliver(self, name: str, content: bytes) -> None:
+        """Send a file to the browser in control, or to all where nobody is."""
+        to = self._control.holder() or self._server
+        to.send_file_download(name, content, save_immediately=True)
 
     def _draw_until_closed(self) -> None:
         pictures = 0
         while not self._closing.wait(FRAME):
             try:
-                now = self._loop.session.snapshot
+                snapshot = self._loop.session.snapshot
             except StudioError as error:
-                self._messages.fail(str(error))
+                self.page.messages.fail(str(error))
                 return
             # Nothing but drawing in here: all broadcasts wait until it is through.
             with self._server.atomic():
-                self._draw(now, panels=pictures % PANEL_EVERY == 0)
+                self._draw(snapshot, panels=pictures % PANEL_EVERY == 0)
             pictures += 1
 
-    def _draw(self, now: Snapshot, panels: bool) -> None:
-        self.scene.draw(now)
+    def _draw(self, snapshot: Snapshot, panels: bool) -> None:
+        self.scene.draw(snapshot)
+        self._handles.draw(snapshot)
+        self._arcs.draw(snapshot)
         if not panels:
             return
-        for panel in self._panels:
-            panel.draw(now)
+        self.page.draw(snapshot)
+        self.page.tell_pace(self._loop.pace)
+        self._control.draw()
         if self.scene.lacks_meshes:
-            self._messages.notify(_NO_MESHES)
+            self.page.messages.notify(_NO_MESHES)
 
 
 def _quiet() -> contextlib.redirect_stdout[io.StringIO]:

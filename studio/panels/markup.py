@@ -8,6 +8,15 @@ from collections.abc import Iterable, Sequence
 
 from studio.panels.palette import PROBLEM, Color, css
 
+_CODE = (  # one click marks all of it
+    "user-select:all;padding:.15em .4em;border-radius:.25em;overflow-wrap:anywhere;flex:1;"
+    "background:rgba(127,127,127,.16)"
+)
+_COPY = (
+    "font:inherit;font-size:.85em;white-space:nowrap;cursor:pointer;padding:.1em .5em;"
+    "color:inherit;background:none;"
+    "border:1px solid var(--mantine-color-default-border);border-radius:.3em"
+)
 _BLOCK = "margin:0 .75em .6em .75em;line-height:1.35;overflow-wrap:anywhere"
 
 
@@ -24,6 +33,18 @@ def block(content: str, style: str = "") -> str:
 def note(words: str) -> str:
     """Return a quiet remark."""
     return block(text(words), "font-size:.85em;color:var(--mantine-color-dimmed)")
+
+
+def command(words: str) -> str:
+    """Return a command to type, and a button that copies it where the browser lets it."""
+    copy = "navigator.clipboard?.writeText(this.previousElementSibling.textContent)"
+    click = f"{copy}.then(()=>{{this.textContent='✔ copied'}})"
+    return (
+        '<span style="display:flex;gap:.4em;align-items:center">'
+        f'<code style="{_CODE}">{text(words)}</code>'
+        f'<button type="button" style="{_COPY}" onclick="{click}">copy</button>'
+        "</span>"
+    )
 
 
 def problem(words: str) -> str:

@@ -3,18 +3,18 @@
 Each ``why_not_...`` returns nothing where the thing can be done.
 """
 
-from collections.abc import Sequence
-
-from studio.engine.arms import Arms, in_words
-from studio.engine.snapshot import Entry, Mode, Snapshot
+from studio.engine.arms import in_words
+from studio.engine.entry import Entry
+from studio.engine.export.kind import WITHOUT_LESSON
+from studio.engine.snapshot import Mode, Snapshot
 
 CALIBRATING = "Baxter waits while you calibrate: press Stop first."
 FOLLOWING = (Mode.WATCHING, Mode.ARMED, Mode.RECORDING)
 
 
 def fitting(now: Snapshot) -> list[Entry]:
-    """Return the listed demonstrations of the chosen arm and mapping: what Train learns from."""
-    return [each for each in now.entries if _kind(each) == (now.choices.arms, now.choices.mapping)]
+    """Return the included demonstrations of the chosen arm and mapping: what Train learns from."""
+    return [each for each in _of_kind(now) if each.included]
 
 
 def why_not_configure(now: Snapshot) -> str:
@@ -47,7 +47,11 @@ def why_not_teach(now: Snapshot) -> str:
 
 
 def why_not_train(now: Snapshot) -> str:
-    """Return why there is nothing to learn from."""
+    """Return why nothing can be learned."""
+    if now.learning.underway is not None:
+        return f"Wait, or press Cancel: {now.learning.underway.words} goes on."
+    if _of_kind(now) and not fitting(now):
+        return f"All demonstrations by {_wanted(now)} are left out: include one in 2 Teach."
     if not fitting(now):
         return f"No demonstration by {_wanted(now)}: record one in 2 Teach."
     return ""
@@ -67,6 +71,37 @@ def why_not_replay(now: Snapshot) -> str:
     return "Somebody teaches: press Stop first." if _follows(now) else ""
 
 
+def why_not_record_again(now: Snapshot) -> str:
+    """Return why no take can be recorded once more."""
+    return "" if _follows(now) else why_not_teach(now)
+
+
+def why_not_restore(now: Snapshot) -> str:
+    """Return why nothing comes back."""
+    return "" if now.collection.removed else "Nothing was deleted."
+
+
+def why_not_toggle(now: Snapshot) -> str:
+    """Return why there is nothing to play or to pause."""
+    if now.compare.timeline.title:
+        return ""
+    return why_not_play(now) and why_not_replay(now)
+
+
+def why_not_step(now: Snapshot) -> str:
+    """Return why the playhead cannot be moved."""
+    return "" if now.compare.timeline.title else "Nothing is on the timeline: press Play first."
+
+
+def why_not_export(now: Snapshot, kind: str) -> str:
+    """Return why a kind of file cannot be written."""
+    if not now.entries:
+        return "No demonstration is listed: record one in 2 Teach."
+    if kind in WITHOUT_LESSON or now.lesson is not None:
+        return ""
+    return "Nothing is learned yet: press Train in 3 Learn."
+
+
 def next_step(now: Snapshot) -> str:
     """Return what a newcomer should do next."""
     learned, done = now.lesson is not None, now.reproduction is not None
@@ -76,21 +111,22 @@ def next_step(now: Snapshot) -> str:
             (_follows(now), "watch the gate; Stop ends it and keeps what was recorded."),
             (now.mode is Mode.PLAYING, "watch the block."),
             (now.mode is Mode.CALIBRATING, "stand as it says; Stop gives up."),
+            (now.mode is Mode.TRAINING, "wait until it has learned; Stop gives up."),
             (learned and not done, "4 Compare: let Baxter do it alone."),
             (learned, "3 Learn: try fewer neurons, train again, and compare."),
             (bool(fitting(now)), "3 Learn: press Train."),
             (_waits_for_stream(now), "1 Source: let a sensor send, as it says there."),
             (now.source is not None, "2 Teach: press Record."),
             (_can_take_stream(now), "1 Source: take the live stream."),
-            (True, "1 Source: choose who teaches, for example the demonstrator."),
+            (True, "1 Source: choose who teaches, yourself with the puppet for example."),
         )
         if applies
     )
 
 
-def described(demonstrations: Sequence[Entry], index: int) -> str:
+def described(entry: Entry) -> str:
     """Return a listed demonstration's number and name, which tells equal names apart."""
-    return f"{index + 1}: {demonstrations[index].demonstration.name}"
+    return f"{entry.number}: {entry.name}"
 
 
 def _follows(now: Snapshot) -> bool:
@@ -106,8 +142,9 @@ def _can_take_stream(now: Snapshot) -> bool:
     return now.live is not None and now.live.is_flowing
 
 
-def _kind(entry: Entry) -> tuple[Arms, str]:
-    return entry.demonstration.arms, entry.demonstration.mapping
+def _of_kind(now: Snapshot) -> list[Entry]:
+    arms, mapping = now.choices.arms, now.choices.mapping
+    return [entry for entry in now.entries if entry.is_of(arms, mapping)]
 
 
 def _wanted(now: Snapshot) -> str:

@@ -1,6 +1,7 @@
 """A page of its own that replays what Baxter did alone: one file, no server, no network.
 
-It holds the 3D view, and viser's player below it. Baxter's meshes are most of it.
+It holds the 3D view, and viser's player below it. Baxter's meshes are most of it, so their
+maker's license goes with them.
 """
 
 import contextlib
@@ -18,6 +19,7 @@ from studio.engine.export.kind import Job, Kind, lacks_reproduction
 from studio.engine.export.material import Material
 from studio.engine.measures import hand_path
 from studio.engine.moment import demonstration_at
+from studio.engine.resources import notice_path
 from studio.engine.robot import BASE_HEIGHT, CONTROL_PERIOD
 from studio.engine.skeleton import FloatArray, Side
 from studio.engine.teaching import Lesson, Reproduction
@@ -25,6 +27,7 @@ from studio.panels.meshes import FINE
 from studio.panels.palette import GHOST, ROBOT, Color
 from studio.panels.robot_view import GhostView, RobotView
 from studio.panels.stage import Furniture, set_the_stage
+from studio.panels.trails import segments
 
 FILE = "replay.html"
 PAUSE = 1.0  # [s] at the end, before it begins anew
@@ -80,6 +83,13 @@ def write(material: Material, job: Job) -> tuple[Path, ...]:
 REPLAY = Kind("replay", "the 3D view as a page of its own", (FILE,), lacks_reproduction, write)
 
 
+def with_notice(page: str) -> str:
+    """Return a page that says in its source whose meshes it embeds, under a title of our own."""
+    notice = notice_path().read_text(encoding="utf-8").replace("--", "- -")  # ends no comment
+    titled = page.replace("<title>Viser</title>", "<title>Baxter does it alone</title>", 1)
+    return titled.replace("<head>", f"<head>\n<!--\n{notice}-->", 1)
+
+
 class _Stage:
     """The scene of a replay, on a server that nobody sees."""
 
@@ -97,7 +107,7 @@ class _Stage:
         self._ghosts: dict[Side, GhostView] = {
             side: GhostView(server.scene, f"/ghost_{side}") for side in sides_of(ghost.arms)
         }
-        self._furniture = Furniture(server.scene, self._shown.arms)
+        self._furniture = Furniture(server.scene)
         joints = np.array([tick.world.joint_positions for tick in self._shown.ticks])
         self._trail("/alone", joints, ROBOT, 0.008)
         shown = np.stack([demonstration_at(ghost, time).joints for time in ghost.times.tolist()])
@@ -115,12 +125,12 @@ class _Stage:
             self._draw(number)
             job.done(number / len(ticks))
         serializer.insert_sleep(PAUSE)
-        return serializer.as_html().encode()
+        return with_notice(serializer.as_html()).encode()
 
     def _draw(self, number: int) -> None:
         tick = self._shown.ticks[number]
         self._robot.draw(tick.world.joint_positions, tick.world.fingers)
-        self._furniture.draw(tick.world.block_poses)
+        self._furniture.draw(self._shown.arms, tick.world.block_poses)
         share = min(max(tick.time, 0.0) / self._shown.duration, 1.0)
         body = demonstration_at(self._ghost, share * self._ghost.duration).joints
         for side, ghost in self._ghosts.items():
@@ -129,7 +139,10 @@ class _Stage:
     def _trail(self, name: str, joints: FloatArray, color: Color, thickness: float) -> None:
         """Draw the path of each taught hand."""
         paths = [hand_path(joints, side) + _WORLD_BASE for side in sides_of(self._shown.arms)]
-        segments = np.concatenate([np.stack([p[:-1], p[1:]], axis=1) for p in paths])
         self._server.scene.add_line_segments(
-            name, segments, colors=color, thickness=thickness, thickness_units="world"
+            name,
+            np.concatenate([segments(path) for path in paths]),
+            colors=color,
+            thickness=thickness,
+            thickness_units="world",
         )

@@ -9,7 +9,7 @@ from studio.engine.engage import COMING
 from studio.engine.snapshot import Mode, Snapshot
 from studio.panels import markup
 from studio.panels.inputs import Post
-from studio.panels.palette import Color
+from studio.panels.palette import STOP, Color
 from studio.panels.readiness import next_step
 
 # A word, a shape and a color for each; errors never wear recording's red.
@@ -20,19 +20,24 @@ _PILLS: dict[Mode, tuple[str, str, Color]] = {
     Mode.RECORDING: ("●", "RECORDING", (200, 30, 40)),
     Mode.PLAYING: ("▶", "PLAYING", (28, 100, 180)),
     Mode.CALIBRATING: ("◎", "CALIBRATING", (140, 85, 20)),
+    Mode.TRAINING: ("◐", "TRAINING", (125, 60, 130)),
 }
+
+
+TOP = -20.0  # above whatever each browser has of its own, which is above all else
 
 
 class StatusPanel:
     """State and Stop, above all others."""
 
     def __init__(self, gui: viser.GuiApi, post: Post) -> None:
-        self._strip = gui.add_html("")
+        self._strip = gui.add_html("", order=TOP)
         self._stop = gui.add_button(
             "Stop",
             hint="Stops whatever goes on; what was recorded is kept",
-            color="dark",
+            color=STOP,
             icon=viser.Icon.PLAYER_STOP,
+            order=TOP + 1.0,
         )
         self._stop.on_click(lambda _: post(commands.Stop()))
 
@@ -84,8 +89,8 @@ def _message(words: str) -> str:
 
 
 def _beside(now: Snapshot) -> tuple[str, ...]:
-    if now.mode is Mode.IDLE:
-        return ()
+    if now.mode in (Mode.IDLE, Mode.TRAINING):
+        return _computed(now)
     # A live stream has no end to tell of.
     clock = f"{now.time:.0f} of {now.duration:.0f} s" if now.duration else f"{now.time:.0f} s"
     if now.mode is Mode.PLAYING:
@@ -98,6 +103,14 @@ def _beside(now: Snapshot) -> tuple[str, ...]:
         return "Baxter waits", clock
     behind = f"{math.degrees(now.lag.angle):.0f}°, {now.lag.seconds:.1f} s behind"
     return "Baxter follows", behind, clock + _latency(now)
+
+
+def _computed(now: Snapshot) -> tuple[str, ...]:
+    """Return what somebody waits for, if anything, and how far it is."""
+    underway = now.learning.underway
+    if underway is None:
+        return (f"exporting, {now.export.share:.0%}",) if now.export.running else ()
+    return underway.words, *(() if underway.share is None else (f"{100 * underway.share:.0f} %",))
 
 
 def _latency(now: Snapshot) -> str:

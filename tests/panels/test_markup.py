@@ -54,3 +54,9 @@ def test_a_table_lines_up_words_left_and_numbers_right() -> None:
     html = markup.table(("joint", "MSE"), [("left_s0", "1.0"), ("left_s1", "2.0")], bold=1)
     assert html.count("text-align:left") == html.count("text-align:right") == 3
     assert html.count("font-weight:700") == 2
+
+
+def test_a_command_is_shown_as_it_is_typed_and_marked_by_one_click() -> None:
+    shown = markup.command("studio play <FILE> --to ws://here:1")
+    assert ">studio play &lt;FILE&gt; --to ws://here:1</code>" in shown
+    assert "user-select:all" in shown

@@ -1,5 +1,6 @@
 """What can be done when, and why not: against what a session itself accepts."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -80,6 +81,15 @@ def test_only_demonstrations_of_the_chosen_kind_count(lesson) -> None:
     assert "right arm with the paper mapping" in why_not_train(lesson["open"])
 
 
+def test_with_all_left_out_there_is_nothing_to_learn_from(lesson) -> None:
+    now = lesson["taught twice"]
+    left_out = tuple(replace(entry, included=False) for entry in now.entries)
+    assert len(fitting(replace(now, entries=(now.entries[0], *left_out[1:])))) == 1
+    now = replace(now, entries=left_out)
+    assert fitting(now) == []
+    assert "left out: include one in 2 Teach" in why_not_train(now)
+
+
 def test_equal_names_are_told_apart(lesson) -> None:
-    twice = lesson["recorded"].entries * 2
-    assert described(twice, 0) != described(twice, 1)
+    (one,) = lesson["recorded"].entries
+    assert described(one) != described(replace(one, number=one.number + 1))

@@ -4,6 +4,7 @@ from pathlib import Path
 import pytest
 
 from studio.engine.export import Job, Material, StoppedError
+from studio.engine.resources import notice_path
 from studio.panels.meshes import COARSE
 from studio.panels.replay_page import REPLAY, replay_page
 from tests.engine.export.materials import done, listed
@@ -27,6 +28,11 @@ def test_a_page_is_one_file_that_loads_nothing(tmp_path: Path) -> None:
     assert found.lstrip()[:9].lower() == b"<!doctype"
     assert b'src="http' not in found
     assert b'href="http' not in found
+    text = found.decode()
+    comment = text[text.index("<!--") : text.index("-->")]
+    assert notice_path().read_text() in comment
+    assert text.index("-->") < text.index("</head>")
+    assert "<title>Viser</title>" not in text
     assert shares == sorted(shares)
     assert len(shares) > 25
 

@@ -5,13 +5,16 @@ all of them keep Python busy for many ticks. So the session is packed, and `stud
 """
 
 import json
+import queue
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+import threading
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import IO
 
 from studio.engine.errors import FileError, StudioError
 from studio.engine.export import session_file
@@ -22,6 +25,7 @@ from studio.engine.export.material import Material
 from studio.engine.export.registry import KINDS
 
 _PERCENT = re.compile(r"^studio: (\w+): (\d+)%$")
+_ASKED_EVERY = 0.2  # [s] whether to go on
 _PACKED = 0.02  # share of the work
 APART = (*KINDS, "replay")  # the last one is the panels'
 
@@ -65,23 +69,47 @@ def export_apart(
 
 def _run(command: list[str], kinds: list[str], job: Job) -> None:
     """Run a command to its end, or to where the job is stopped."""
-    process = subprocess.Popen(
+    said, share, answer = "", 0.0, ""
+    heard: queue.SimpleQueue[str | None] = queue.SimpleQueue()
+    with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace"
-    )
-    said = ""
-    try:
-        for line in process.stderr or ():  # while it says nothing, for 2 s, nothing can stop it
-            said = line.strip()
-            found = _PERCENT.match(said)
-            if found is not None and found[1] in kinds:
-                job.done((kinds.index(found[1]) + int(found[2]) / 100.0) / len(kinds))
-        answer = process.stdout.read() if process.stdout is not None else ""
-    finally:
-        if process.poll() is None:
-            process.kill()  # what it wrote so far is in a folder that goes with it
-        process.communicate()
+    ) as process:
+        listener = threading.Thread(target=_listen, args=(process.stderr, heard))
+        listener.start()
+        try:
+            for line in _lines(heard):
+                said = line or said
+                found = _PERCENT.match(line)
+                if found is not None and found[1] in kinds:
+                    share = (kinds.index(found[1]) + int(found[2]) / 100.0) / len(kinds)
+                job.done(share)  # in its silence, too: somebody may wish to stop it
+            answer = process.stdout.read() if process.stdout is not None else ""
+            process.wait()
+        finally:
+            if process.poll() is None:
+                process.kill()  # what it wrote so far is in a folder that goes with it
+            listener.join()
     if process.returncode != 0:
         raise StudioError(_why(answer) or f"the export ended early: {said or 'nobody knows why'}")
+
+
+def _listen(stream: IO[str] | None, heard: "queue.SimpleQueue[str | None]") -> None:
+    """Put what is said into a queue, then None."""
+    for line in stream or ():
+        heard.put(line.strip())
+    heard.put(None)
+
+
+def _lines(heard: "queue.SimpleQueue[str | None]") -> Iterator[str]:
+    """Yield what is said, and nothing now and then while nothing is."""
+    while True:
+        try:
+            line = heard.get(timeout=_ASKED_EVERY)
+        except queue.Empty:
+            line = ""
+        if line is None:
+            return
+        yield line
 
 
 def _why(answer: str) -> str:

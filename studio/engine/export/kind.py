@@ -52,6 +52,10 @@ class Kind:
     write: Callable[[Material, Job], tuple[Path, ...]]  # -> the files that were written
 
 
+# What a studio writes before anything is learned; all other kinds tell of what was.
+WITHOUT_LESSON = frozenset({"mcap", "html", "zip"})
+
+
 def lacks_nothing(_: Material) -> str:
     """Return nothing: a kind that can always be written."""
     return ""

@@ -25,8 +25,8 @@ from studio.engine.demonstration import SAMPLES, DemonstrationSet
 from studio.engine.export.files import write_text
 from studio.engine.export.kind import Job
 from studio.engine.export.material import Material
-from studio.engine.measures import hand_path
-from studio.engine.performance import joint_columns, whole_body
+from studio.engine.measures import body_as_meant, hand_path
+from studio.engine.performance import joint_columns
 from studio.engine.robot import CONTROL_PERIOD, JOINT_NAMES
 from studio.engine.skeleton import FloatArray
 from studio.engine.teaching import INDEX_TIME, Lesson, Reproduction
@@ -177,7 +177,9 @@ def comparison(taught: DemonstrationSet, reproduction: Reproduction) -> Table:
     performance = reproduction.performance
     stamps = np.linspace(0.0, performance.duration, SAMPLES)
     body = performance.measured_at(stamps)
-    meant = whole_body(taught.mean, taught.joints)
+    meant = body_as_meant(
+        taught.mean, taught.joints, performance.arms, performance.duration, taught.hands
+    )
     columns = {
         "index": INDEX_TIME,
         "time [s]": stamps,

@@ -3,11 +3,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from studio.engine.export import Job, tables
 from studio.engine.export.tables import Table
 from studio.engine.measures import deviation
 from tests.engine.export.materials import done, listed
+from tests.engine.lessons_at_hand import with_wrists
 
 
 def read(path: Path) -> dict[str, list[str]]:
@@ -47,6 +49,20 @@ def test_the_comparison_leads_to_the_same_measures(tmp_path: Path) -> None:
     taught = material.taught
     expected = deviation(material.reproduction.performance, taught.mean, taught.joints)
     assert np.linalg.norm(measured - mean, axis=1).max() == expected.hand_max
+
+
+def test_the_hand_is_meant_to_be_where_the_turned_wrist_brings_it() -> None:
+    """What the page's equation reads from the table is the number that the page shows."""
+    material = done()
+    played, taught = material.reproduction.performance, with_wrists(material.lesson.taught)
+    columns = tables.comparison(taught, material.reproduction).columns
+    measured, mean = (
+        np.array([columns[f"{of} left hand {axis} [m]"] for axis in "xyz"]).T
+        for of in ("measured", "mean")
+    )
+    expected = deviation(played, taught.mean, taught.joints, taught.hands)
+    assert np.linalg.norm(measured - mean, axis=1).mean() == pytest.approx(expected.hand_mean)
+    assert expected.hand_mean > material.reproduction.deviation.hand_mean + 0.01
 
 
 def test_the_reproduction_is_there_tick_by_tick(tmp_path: Path) -> None:

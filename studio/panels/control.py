@@ -1,0 +1,133 @@
+"""One browser controls, the others watch: what each of them sees of that, and who is refused."""
+
+import contextlib
+import threading
+from collections.abc import Callable
+
+import viser
+
+from studio.engine import commands
+from studio.engine.commands import Command
+from studio.engine.errors import StudioError
+from studio.panels import markup
+from studio.panels.hearing import hear, speaker
+from studio.panels.inputs import Post
+from studio.panels.seat import Seat
+
+ORDER = -10.0  # under the state and Stop, above all else
+CLOSED = "The page that controlled Baxter was closed or lost its line, so Baxter was let go."
+_TOLD_EVERY = 3.0  # [s] between two refusals of one browser, which may drag a slider
+
+
+class Control:
+    """See the module.
+
+    Parameters
+    ----------
+    server
+        Its browsers are told apart, its callbacks heard.
+    post
+        Where commands go that are not refused.
+    now
+        The time [s].
+    """
+
+    def __init__(self, server: viser.ViserServer, post: Post, now: Callable[[], float]) -> None:
+        self._server, self._post, self._now = server, post, now
+        self._seat = Seat()
+        self._bars: dict[int, _Bar] = {}
+        self._told: dict[int, float] = {}  # [s] when a browser was last refused
+        self._lock = threading.Lock()  # of the bars
+        hear(server)
+        server.on_client_connect(self._join)
+        server.on_client_disconnect(self._leave)
+
+    def post(self, command: Command) -> None:
+        """Pass a command on; where it comes from a browser that only watches, refuse in words."""
+        if self.allows():
+            self._post(command)
+
+    def allows(self) -> bool:
+        """Tell whether whoever is heard on this thread may act, and say so where not."""
+        client = speaker()
+        refusal = "" if client is None else self._seat.act(client)
+        if refusal and client is not None:
+            self._refuse(client, refusal)
+        return not refusal
+
+    def holder(self) -> viser.ClientHandle | None:
+        """Return the browser in control."""
+        held = self._seat.holder
+        return None if held is None else self._server.get_clients().get(held)
+
+    def draw(self) -> None:
+        """Tell each browser its role."""
+        now = self._now()
+        self._seat.pass_on(now)
+        with self._lock:
+            for client, bar in self._bars.items():
+                bar.draw(client, now)
+
+    def _join(self, client: viser.ClientHandle) -> None:
+        self._seat.join(client.client_id)
+        bar = _Bar(client.gui, self._seat, self._now)
+        with self._lock:
+            self._bars[client.client_id] = bar
+        # It may have gone already: the two are told on different threads.
+        if client.client_id not in self._server.get_clients():
+            self._leave(client)
+
+    def _leave(self, client: viser.ClientHandle) -> None:
+        with self._lock:
+            self._bars.pop(client.client_id, None)
+            self._told.pop(client.client_id, None)
+        if self._seat.leave(client.client_id):
+            with contextlib.suppress(StudioError):  # the engine has ended before its page
+                self._post(commands.LetGo(CLOSED))
+
+    def _refuse(self, client: int, words: str) -> None:
+        now = self._now()
+        handle = self._server.get_clients().get(client)
+        if handle is None or now - self._told.get(client, -_TOLD_EVERY) < _TOLD_EVERY:
+            return
+        self._told[client] = now
+        handle.add_notification("You are watching", words, auto_close_seconds=8.0)
+
+
+class _Bar:
+    """What one browser sees of who controls: nothing while it is the only one."""
+
+    def __init__(self, gui: viser.GuiApi, seat: Seat, now: Callable[[], float]) -> None:
+        self._seat = seat
+        self._words = gui.add_html("", visible=False, order=ORDER)
+        self._ask = gui.add_button(
+            "Ask for control",
+            icon=viser.Icon.HAND_STOP,
+            visible=False,
+            order=ORDER + 1,
+            hint="Whoever controls is asked; without an answer it is yours",
+        )
+        self._yes = gui.add_button(
+            "Hand over", icon=viser.Icon.CHECK, visible=False, order=ORDER + 2
+        )
+        self._no = gui.add_button(
+            "Keep control", icon=viser.Icon.X, color="gray", visible=False, order=ORDER + 3
+        )
+        self._ask.on_click(lambda event: seat.ask(_client(event), now()))
+        self._yes.on_click(lambda event: seat.answer(_client(event), True))
+        self._no.on_click(lambda event: seat.answer(_client(event), False))
+
+    def draw(self, client: int, now: float) -> None:
+        """Show the role of the browser that this is."""
+        words, seat = self._seat.role(client, now), self._seat
+        is_asked = client == seat.holder and seat.asking is not None
+        self._words.content = markup.block(f"<b>{markup.text(words)}</b>") if words else ""
+        self._words.visible = bool(words)
+        is_free_to_ask = seat.asking is None or seat.asking == client
+        self._ask.visible = bool(words) and client != seat.holder and is_free_to_ask
+        self._ask.disabled = client == seat.asking
+        self._yes.visible = self._no.visible = is_asked
+
+
+def _client(event: viser.GuiEvent[viser.GuiButtonHandle]) -> int:
+    return -1 if event.client_id is None else event.client_id

@@ -1,0 +1,65 @@
+"""What a browser gets before viser's page runs, and what it gets instead where it cannot draw."""
+
+TITLE = "Baxter's teaching studio"
+NO_WEBGL_PATH = "/no-webgl"
+
+# Three.js, which draws the scene, needs WebGL 2. A context is given back at once: browsers count.
+_CHECK = f"""<script>
+(function () {{
+  var context = null;
+  try {{ context = document.createElement("canvas").getContext("webgl2"); }} catch (error) {{}}
+  if (context === null) {{ location.replace("{NO_WEBGL_PATH.lstrip("/")}"); return; }}
+  var drop = context.getExtension("WEBGL_lose_context");
+  if (drop) drop.loseContext();
+}})();
+</script>"""
+
+NO_WEBGL = f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{TITLE}: this browser cannot draw in 3D</title>
+<style>
+:root {{ color-scheme: light dark; }}
+body {{ font: 1.1rem/1.5 system-ui, sans-serif; max-width: 42rem; margin: 8vh auto;
+  padding: 0 1rem; }}
+h1 {{ font-size: 1.6rem; }}
+code {{ background: rgba(127, 127, 127, .2); padding: .1em .3em; border-radius: .2em; }}
+a.again {{ display: inline-block; padding: .5em 1em; border-radius: .3em; background: #1c64b4;
+  color: #fff; text-decoration: none; font-weight: 700; }}
+</style>
+</head>
+<body>
+<h1>⚠ This browser cannot draw Baxter</h1>
+<p>The studio shows the robot in 3D, for which a browser needs <b>WebGL 2</b>. In this one it is
+switched off or missing. The studio itself runs, and nothing of what was recorded is lost.</p>
+<p>What helps, the quickest first:</p>
+<ol>
+<li>Open this page in another browser: a current Chrome, Edge, Firefox or Safari.</li>
+<li>Chrome and Edge: Settings, System, switch on “Use graphics acceleration when available”, and
+start the browser anew.</li>
+<li>Firefox: open <code>about:config</code> and set <code>webgl.disabled</code> to
+<code>false</code>.</li>
+<li>On a machine without a graphics card, or far away: open the page on your own machine, through
+<code>ssh -L 8080:127.0.0.1:8080 THE-OTHER-MACHINE</code>.</li>
+<li>Without any browser: <code>studio demo --headless</code> teaches, learns and prints the
+numbers.</li>
+</ol>
+<p><a class="again" href="./">Try again</a></p>
+</body>
+</html>
+"""
+
+
+def checked(page: str) -> str:
+    """Return viser's page under our title, with a look at the browser before all else in it."""
+    head = page.find("<head>")
+    if head < 0:
+        return page
+    begin = head + len("<head>")
+    return (
+        page[:begin]
+        + _CHECK
+        + page[begin:].replace("<title>Viser</title>", f"<title>{TITLE}</title>", 1)
+    )
