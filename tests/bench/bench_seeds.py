@@ -1,4 +1,4 @@
-"""The demonstration over many seeds, both mappings: writes its table into README.md.
+"""The demonstration over many seeds, both mappings: writes its table into docs/learning.md.
 
 Run it by ``python tests/bench/bench_seeds.py``; it takes about three minutes.
 """
@@ -13,7 +13,7 @@ from studio.engine.experiment import Experiment, Setup, run_experiment
 from studio.engine.retarget import MAPPINGS, Mapping
 from studio.engine.sources.demonstrator import demonstrate
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "learning.md"
 COLUMNS = (
     "mapping",
     "seeds with every block down",
@@ -27,15 +27,15 @@ HEADER = f"| {' | '.join(COLUMNS)} |\n{'|---' * len(COLUMNS)}|\n"
 
 
 def main() -> None:
-    """Measure, print the table, and put it into the README."""
+    """Measure, print the table, and put it into the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=20)
     seeds = parser.parse_args().seeds
     table = HEADER + "".join(f"{row(mapping, seeds)}\n" for mapping in MAPPINGS)
     print(table)
-    text = README.read_text()
+    text = PAGE.read_text()
     marked = re.compile(r"(<!-- seeds: begin -->\n).*?(<!-- seeds: end -->)", re.DOTALL)
-    README.write_text(marked.sub(lambda found: found[1] + table + found[2], text))
+    PAGE.write_text(marked.sub(lambda found: found[1] + table + found[2], text))
 
 
 def row(mapping: Mapping, seeds: int) -> str:
