@@ -43,7 +43,7 @@ def without_browser(why: str) -> None:
 @pytest.fixture
 def page(browser: Browser) -> Iterator[Page]:
     """A page whose errors, if any, fail the test."""
-    context = browser.new_context(viewport={"width": 820, "height": 700})
+    context = browser.new_context(viewport={"width": 1366, "height": 768})
     context.set_default_timeout(PATIENCE)
     opened = context.new_page()
     errors: list[str] = []

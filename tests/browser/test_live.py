@@ -6,24 +6,19 @@ from pathlib import Path
 from playwright.sync_api import Page
 
 from studio.engine import clock
-from studio.engine.clock import LiveLoop
 from studio.engine.live.access import Address
 from studio.engine.live.listener import Listener
 from studio.engine.live.source import LiveSource
-from studio.engine.session import Session
 from studio.engine.skeleton import HandState
-from studio.panels.app import App
-from tests.browser.test_studio import Studio
+from tests.browser.opened import studio_on
 from tests.engine.live.streaming import SIGNS, publisher, signing
 
 
 def test_a_stream_is_taken_and_followed(page: Page, tmp_path: Path) -> None:
     live, ending = LiveSource(clock.now), threading.Event()
-    build = lambda: Session(tmp_path, live=live)  # noqa: E731 - built on the loop's thread
     with (
         Listener(live, Address("127.0.0.1", 0)) as listener,
-        LiveLoop(build) as loop,
-        App(loop, port=0, detail=0.02) as app,
+        studio_on(page, tmp_path, 1.0, live, has_robot=True) as studio,
     ):
 
         def send() -> None:
@@ -38,8 +33,7 @@ def test_a_stream_is_taken_and_followed(page: Page, tmp_path: Path) -> None:
 
         sending = threading.Thread(target=send)
         try:
-            page.goto(app.url)
-            studio = Studio(loop, page)
+            studio.unfold("A sensor: live stream, webcam")
             studio.shows("Nobody sends yet")
             studio.shows(listener.address.url)
             sending.start()

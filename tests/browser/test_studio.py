@@ -1,106 +1,34 @@
-"""The studio in a real browser, as a newcomer uses it: by its buttons, reading its words."""
+"""The studio in a real browser: what goes wrong there, who watches, and what comes back."""
 
-import re
-import socket
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Page, expect
 
-from studio.engine.clock import LiveLoop
-from studio.engine.session import Session
+from studio.engine import commands
 from studio.engine.snapshot import Mode
 from studio.engine.sources import write_skeletons
 from studio.engine.sources.recording import from_skeletons
-from studio.panels.app import App
-from tests.browser.conftest import PATIENCE
+from tests.browser.opened import SMALL, Studio, studio_on
+from tests.engine.export.materials import listed
 from tests.engine.people import stand
 
 CALIBRATE = "Calibrate (stand with arms hanging)"
-FAST, SLOW = 8.0, 0.25  # times real time: to get through, and to catch what passes
-
-expect.set_options(timeout=PATIENCE)
-
-
-class Studio:
-    """A running studio with its page open."""
-
-    def __init__(self, loop: LiveLoop, page: Page) -> None:
-        self.loop, self.page = loop, page
-
-    def press(self, name: str) -> None:
-        self.button(name).click()
-
-    def button(self, name: str) -> Locator:
-        return self.page.get_by_role("button", name=name, exact=True)
-
-    def open_step(self, name: str) -> None:
-        self.page.get_by_text(name, exact=True).click()
-
-    def shows(self, words: str) -> None:
-        expect(self.page.get_by_text(words).first).to_be_visible()
-
-    def teach_once(self, name: str) -> None:
-        self.open_step("1 Source")
-        self.press("Take the demonstrator")
-        self.shows("Source: demonstrator")
-        self.open_step("2 Teach")
-        self.press("Record")
-        self.shows(f"Added {name}.")
-        self.shows("IDLE")
 
 
 @pytest.fixture
 def studio(page: Page, tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Studio]:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    build = lambda: Session(tmp_path / "recordings")  # noqa: E731 - built on the loop's thread
-    with LiveLoop(build, request.param) as loop, App(loop, port=port, detail=0.02) as app:
-        page.goto(app.url)
-        opened = Studio(loop, page)
-        opened.shows("IDLE")
+    """A studio at a speed: 1 unless a test asks for another one."""
+    with studio_on(page, tmp_path / "recordings", getattr(request, "param", 1.0)) as opened:
         yield opened
 
 
-@pytest.mark.parametrize("studio", [FAST], indirect=True)
-def test_teach_train_play_and_see_the_block_fall(studio: Studio, tmp_path: Path) -> None:
-    expect(studio.page.locator("canvas").first).to_be_visible()
-    studio.open_step("4 Compare")
-    expect(studio.button("Let Baxter do it alone")).to_be_disabled()
-    studio.shows("Nothing is learned yet")
-
-    studio.teach_once("demonstration-001")
-    studio.teach_once("demonstration-002")
-    assert len(list((tmp_path / "recordings").glob("*.mcap"))) == 2
-
-    studio.open_step("3 Learn")
-    studio.press("Train")
-    studio.shows("Learned with 50 neurons")
-    row = studio.page.locator("tr", has_text="left_s0").first
-    expect(row).to_have_text(re.compile(r"left_s0\d\.\d\de-0\d\d\.\d\de-0\d1\.0\d\d\d"))
-
-    studio.open_step("4 Compare")
-    studio.press("Let Baxter do it alone")
-    studio.shows("✔ The block is down.")
-    now = studio.loop.session.snapshot
-    assert now.world.block_down
-    assert now.reproduction is not None
-    assert now.reproduction.performance.block_down
-    studio.shows(f"{1000.0 * now.reproduction.deviation.hand_mean:.1f}")
-
-    studio.page.reload()  # another client, and the same truth
-    studio.shows("The block is down.")
-    studio.open_step("2 Teach")
-    studio.shows("demonstration-002")
-
-
-@pytest.mark.parametrize("studio", [SLOW], indirect=True)
+@pytest.mark.parametrize("studio", [0.25], indirect=True)
 def test_a_broken_file_and_stop(studio: Studio, tmp_path: Path) -> None:
     broken = tmp_path / "waving <b>hand.json"
     broken.write_text('{"version": "0.3", "frames": [')
-    studio.page.locator("input[type=file]").set_input_files(broken)
+    studio.upload("Upload a file", broken)
     studio.shows("Problem:")
     studio.shows("waving <b>hand.json")  # as words, and under the user's name
 
@@ -109,21 +37,19 @@ def test_a_broken_file_and_stop(studio: Studio, tmp_path: Path) -> None:
     studio.open_step("2 Teach")
     studio.press("Record")
     studio.shows("RECORDING")
-    studio.shows("waiting for Lasso of the left hand")
     expect(studio.button("Record")).to_be_disabled()
-    studio.press("Stop")
+    studio.page.keyboard.press("Escape")
     studio.shows("IDLE")
     studio.shows("nothing armed")
-    now = studio.loop.session.snapshot
-    assert (now.mode, now.entries) == (Mode.IDLE, ())
+    assert (studio.now.mode, studio.now.entries) == (Mode.IDLE, ())
 
 
-@pytest.mark.parametrize("studio", [1.0], indirect=True)
 def test_choose_both_arms_with_fingers_and_calibrate(studio: Studio, tmp_path: Path) -> None:
+    studio.unfold("How Baxter follows")
     expect(studio.button(CALIBRATE)).to_be_disabled()
     standing = tmp_path / "standing.jsonl"
     write_skeletons(standing, from_skeletons(stand(0.1, frames=240), "made up", "test"))
-    studio.page.locator("input[type=file]").set_input_files(standing)
+    studio.upload("Upload a file", standing)
     studio.shows("Source: standing.jsonl")
     studio.press(CALIBRATE)
     studio.shows("CALIBRATING")
@@ -131,15 +57,99 @@ def test_choose_both_arms_with_fingers_and_calibrate(studio: Studio, tmp_path: P
     studio.press("Forget the calibration")
     studio.shows("Not calibrated")
 
-    for box, words in ((0, "what your right arm does"), (1, "opens and closes Baxter's fingers")):
-        studio.page.get_by_role("checkbox").nth(box).check()
+    for box, words in (
+        ("Mirrored", "what your right arm does"),
+        ("Gripper", "opens and closes Baxter's fingers"),
+    ):
+        studio.tick(box)
         studio.shows(words)
-    now = studio.loop.session.snapshot
-    assert now.choices.mirrored
-    assert len(now.world.fingers) == 4
+    assert studio.now.choices.mirrored
+    assert len(studio.now.world.fingers) == 4
     studio.open_step("2 Teach")
     studio.press("Watch only")
     studio.shows("WATCHING")
     studio.open_step("1 Source")
+    studio.unfold("How Baxter follows")
     studio.shows("Stop first: this stays as it is")
-    expect(studio.page.get_by_role("checkbox").first).to_be_disabled()
+    expect(studio.page.get_by_label("Mirrored", exact=True)).to_be_disabled()
+
+
+def test_a_reload_brings_back_where_one_was(studio: Studio) -> None:
+    """The step, the ghost that was chosen, the slider of neurons, and the playhead."""
+    studio.loop.session._listed.add(listed(2).takes)
+    entry = studio.waits(lambda now: len(now.entries) == 2).entries[1]
+    studio.loop.session.post(commands.Choose(entry.number))
+    studio.loop.session.post(commands.PlayDemonstration())
+    studio.waits(lambda now: now.mode is Mode.PLAYING)
+    studio.page.keyboard.press("Space")
+    studio.waits(lambda now: not now.compare.timeline.is_playing)
+    studio.page.keyboard.press("ArrowRight")
+    at = studio.waits(lambda now: now.time > 0.0).time
+    studio.open_step("3 Learn")
+    neurons = studio.page.get_by_label("Neurons", exact=True)
+    neurons.fill("17")
+    neurons.press("Enter")
+    studio.page.reload()
+    expect(studio.page.get_by_label("Neurons", exact=True)).to_have_value("17")
+    studio.open_step("4 Compare")
+    expect(studio.page.get_by_label("Ghost", exact=True)).to_have_value(
+        f"{entry.number}: {entry.name}"
+    )
+    assert studio.now.time == at
+    studio.shows(f"{at:.2f} of")
+
+
+def test_one_page_controls_the_other_watches_and_asks(studio: Studio) -> None:
+    studio.press("2 Teach")  # the first click takes the seat
+    other = studio.page.context.new_page()
+    other.goto(studio.app.url + SMALL)
+    watching = Studio(studio.loop, studio.app, other)
+    watching.shows("You watch; another page controls Baxter.")
+    studio.shows("You control Baxter; 1 other watches.")
+    watching.press("1 Source")
+    watching.shows("You are watching")
+    expect(watching.button("Record")).to_be_visible()  # 2 Teach is open still
+    watching.press("Ask for control")
+    studio.press("Hand over")
+    watching.shows("You control Baxter")
+    watching.press("1 Source")
+    expect(watching.button("Take the tour")).to_be_visible()
+    other.close()
+    expect(studio.page.get_by_text("You watch")).to_be_hidden()
+
+
+def test_closing_the_page_while_somebody_teaches_lets_go(studio: Studio) -> None:
+    studio.press("Take the demonstrator")
+    studio.shows("Source: demonstrator")
+    studio.open_step("2 Teach")
+    studio.press("Record")
+    studio.waits(lambda now: now.gate is not None and now.gate.armed)
+    other = studio.page.context.new_page()
+    studio.page.close()
+    for _ in range(200):
+        if studio.now.mode is Mode.IDLE:
+            break
+        other.wait_for_timeout(100)
+    assert studio.now.mode is Mode.IDLE
+    other.goto(studio.app.url + SMALL)
+    Studio(studio.loop, studio.app, other).shows("was closed or lost its line")
+
+
+def test_the_tour_is_begun_and_left(studio: Studio) -> None:
+    studio.press("Take the tour")
+    studio.shows("Tour 1/")
+    studio.shows("Tour 2/")
+    expect(studio.button("Record")).to_be_visible()  # it opens its steps by itself
+    studio.press("Stop")
+    studio.shows("You took over")
+    studio.press("Close")
+    expect(studio.page.get_by_text("You took over")).to_be_hidden()
+
+
+def test_a_browser_without_webgl_is_told_why(studio: Studio, page: Page) -> None:
+    """A browser whose WebGL is off, as far as a page can see."""
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    page.goto(studio.app.url)
+    expect(page.get_by_text("This browser cannot draw Baxter")).to_be_visible()
+    page.get_by_text("Try again").click()
+    expect(page).to_have_url(studio.app.url + "/no-webgl")

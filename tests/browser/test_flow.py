@@ -1,0 +1,148 @@
+"""The whole flow, as a newcomer goes through it: source, teach, learn, compare, export, reopen."""
+
+import csv
+import io
+import zipfile
+from pathlib import Path
+
+import cv2
+import numpy as np
+from playwright.sync_api import Page, expect
+
+from studio.engine import commands
+from studio.engine.export import KINDS
+from studio.engine.mcap_file import read_recording
+from studio.panels.exports import ARCHIVE
+from studio.rbf import load_model
+from tests.browser.conftest import PATIENCE
+from tests.browser.opened import Studio, studio_on
+
+FAST = 8.0  # times real time
+LAPTOP, PROJECTOR = (1366, 768), (1024, 768)
+EVERYTHING = (
+    "Replay page",
+    "Video",
+    "Tables (CSV)",
+    "Arrays (NPZ)",
+    "Recordings (MCAP)",
+    "Network (JSON)",
+    "Report (HTML)",
+)
+
+
+def light_or_dark(studio: Studio, is_dark: bool) -> None:
+    if is_dark:
+        studio.page.keyboard.press("d")
+    scheme = "dark" if is_dark else "light"
+    expect(studio.page.locator("html")).to_have_attribute("data-mantine-color-scheme", scheme)
+
+
+def nothing_is_cut_off(page: Page) -> None:
+    """No panel has more to show sideways than its width."""
+    wider = page.evaluate(
+        "() => [...document.querySelectorAll('[data-dock-leaf] .mantine-ScrollArea-viewport')]"
+        ".filter(e => e.scrollWidth > e.clientWidth + 2).length"
+    )
+    assert wider == 0
+
+
+def walk(studio: Studio) -> None:
+    """Go from nothing to a motion that was reproduced."""
+    expect(studio.page.locator("canvas").first).to_be_visible()
+    studio.open_step("4 Compare")
+    expect(studio.button("Let Baxter do it alone")).to_be_disabled()
+    studio.shows("Nothing is learned yet")
+    studio.open_step("5 Export")
+    expect(studio.button("Export")).to_be_disabled()
+    studio.shows("record one in 2 Teach")
+    studio.teach_once("demonstration-001")
+    studio.teach_once("demonstration-002")
+    for entry in studio.now.entries:  # a second of each, so that the film is soon done
+        studio.loop.session.post(commands.Trim(entry.number, 2.0, 3.2))
+    studio.waits(lambda now: all(entry.is_trimmed for entry in now.entries))
+    studio.open_step("3 Learn")
+    studio.press("Train")
+    studio.shows("Learned with 50 neurons")
+    nothing_is_cut_off(studio.page)
+    studio.open_step("4 Compare")
+    studio.press("Let Baxter do it alone")
+    studio.waits(lambda now: now.reproduction is not None)
+    studio.shows("against the mean demonstration")
+    nothing_is_cut_off(studio.page)
+
+
+def test_all_of_it_on_a_laptop_and_every_export_opens_again(page: Page, tmp_path: Path) -> None:
+    page.set_viewport_size(dict(zip(("width", "height"), LAPTOP, strict=True)))
+    with studio_on(page, tmp_path / "recordings", FAST, has_robot=True) as studio:
+        light_or_dark(studio, is_dark=False)
+        walk(studio)
+        studio.open_step("5 Export")
+        for label in EVERYTHING:
+            studio.tick(label)
+        files: dict[str, Path] = {}
+        page.on("download", lambda download: files.update({download.suggested_filename: download}))
+        studio.press("Export")
+        # A film of two seconds takes eight, on a machine that does nothing else.
+        studio.waits(lambda now: now.export.number == 1 or now.message.is_error, 4 * PATIENCE)
+        studio.waits(lambda _: len(files) == 2)
+        for name, download in files.items():
+            download.save_as(tmp_path / name)
+        assert files.keys() == {"session.zip", ARCHIVE}
+        reopen_the_session(studio, tmp_path / "session.zip")
+    with zipfile.ZipFile(tmp_path / ARCHIVE) as archive:
+        archive.extractall(tmp_path / "files")
+    reopen(page, tmp_path / "files")
+
+
+def test_all_of_it_on_a_projector_in_the_dark(page: Page, tmp_path: Path) -> None:
+    page.set_viewport_size(dict(zip(("width", "height"), PROJECTOR, strict=True)))
+    with studio_on(page, tmp_path / "recordings", FAST) as studio:
+        light_or_dark(studio, is_dark=True)
+        walk(studio)
+        studio.open_step("5 Export")
+        with page.expect_download() as download:
+            studio.press("Export")
+        download.value.save_as(tmp_path / "session.zip")
+        reopen_the_session(studio, tmp_path / "session.zip")
+        boxes = [page.locator("[data-floating-window]").first.bounding_box()]
+        evidence = page.locator("[data-dock-region=right]").bounding_box()
+        assert all(box["x"] + box["width"] <= evidence["x"] for box in boxes)
+
+
+def reopen_the_session(studio: Studio, path: Path) -> None:
+    before = studio.now
+    studio.upload("Open a session (.zip)", path)
+    studio.shows("Opened session.zip: 2 demonstrations, and what was learned from them.")
+    now = studio.now
+    assert len(now.entries) == 2 * len(before.entries)
+    ours, theirs = before.entries[0].demonstration, now.entries[2].demonstration
+    assert np.array_equal(ours.sent, theirs.sent)
+    assert now.lesson is not before.lesson
+    assert now.lesson.settings == before.lesson.settings
+
+
+def reopen(page: Page, folder: Path) -> None:
+    """Open every file that was exported with what it is for."""
+    names = {path.name for path in folder.iterdir()}
+    for kind in KINDS.values():
+        if kind.name != "zip":
+            assert all(any(Path(name).match(pattern) for name in names) for pattern in kind.files)
+    for path in folder.glob("*.csv"):
+        rows = list(csv.reader(io.StringIO(path.read_text())))
+        assert len(rows) > 1
+        assert len({len(row) for row in rows}) == 1
+    with np.load(folder / "data.npz", allow_pickle=False) as arrays:
+        assert all(
+            np.isfinite(arrays[name]).all() for name in arrays if arrays[name].dtype.kind == "f"
+        )
+    for path in folder.glob("*.mcap"):
+        assert read_recording(path).warning == ""
+    assert load_model(folder / "model.json")
+    film = cv2.VideoCapture(str(next(folder.glob("*.webm"))))
+    assert film.read()[0]
+    page.context.set_offline(True)
+    page.goto((folder / "report.html").as_uri())
+    expect(page.locator("h1").first).to_be_visible()
+    page.goto((folder / "replay.html").as_uri())
+    expect(page).to_have_title("Baxter does it alone")
+    expect(page.locator("canvas").first).to_be_visible()
