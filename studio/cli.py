@@ -12,7 +12,6 @@ import tyro
 import studio
 from studio.console import as_json_text, log, only_ours_on_stdout
 from studio.convert_command import Convert
-from studio.engine.activity import next_recording_path
 from studio.engine.errors import StudioError
 from studio.engine.experiment import Setup, run_experiment
 from studio.engine.hands import HandOptions
@@ -23,6 +22,7 @@ from studio.engine.report import as_json, as_text
 from studio.engine.resources import recordings_folder
 from studio.engine.sources import SkeletonRecording
 from studio.engine.sources.demonstrator import demonstrate
+from studio.engine.tape import next_recording_path
 from studio.engine.teaching import LearnerName, LearnerSettings
 from studio.export_command import Export
 from studio.inspect_command import Inspect

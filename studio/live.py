@@ -21,6 +21,7 @@ from studio.engine.live.source import LiveSource
 from studio.engine.resources import samples_folder
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode, Snapshot
+from studio.engine.work import Work
 from studio.panels.app import App
 
 
@@ -46,7 +47,7 @@ def serve_studio(host: str, port: int, recordings: Path, browser: bool, streams:
     )
     with (
         listener,
-        LiveLoop(lambda: Session(recordings, live=live)) as loop,
+        LiveLoop(lambda: Session(recordings, live=live, work=Work(now))) as loop,
         App(loop, host, port) as app,
     ):
         for sample in sorted(samples_folder().glob("*.mcap")):
@@ -75,7 +76,9 @@ def shown_demo(port: int, setup: Setup, demonstrations: int) -> Iterator[None]:
         Where something goes wrong on the way.
     """
     with tempfile.TemporaryDirectory() as folder:
-        build: Callable[[], Session] = lambda: Session(Path(folder), setup.seed)  # noqa: E731
+        build: Callable[[], Session] = lambda: Session(  # noqa: E731
+            Path(folder), setup.seed, work=Work(now)
+        )
         with LiveLoop(build) as loop, App(loop, "127.0.0.1", port) as app:
             _announce(app.url, browser=True)
             session = loop.session
@@ -89,6 +92,7 @@ def shown_demo(port: int, setup: Setup, demonstrations: int) -> Iterator[None]:
                 _wait_for(loop, lambda now: now.mode is not Mode.RECORDING)
             _say("Baxter does it alone")
             session.post(commands.Train(setup.learner))
+            _wait_for(loop, lambda now: now.lesson is not None)
             session.post(commands.PlayReproduction())
             _wait_for(loop, lambda now: now.reproduction is not None)
             yield

@@ -255,9 +255,9 @@ def test_a_killed_process_leaves_the_studio_running_and_disarmed(tmp_path, live,
         assert 0.5 < ticked < 1.5  # it ticks on, at the pace of the clock
 
 
-def test_the_readme_tells_the_limits() -> None:
+def test_the_page_on_live_streams_tells_the_limits() -> None:
     """And the port that all of our publishers send to."""
-    told = " ".join((ROOT / "README.md").read_text().split())
+    told = " ".join((ROOT / "docs" / "live.md").read_text().split())
     for words in (
         f"up to {LARGEST_MESSAGE // 1024} KiB",
         f"{FASTEST:.0f} a second are read",

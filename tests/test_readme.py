@@ -14,24 +14,27 @@ from studio.engine.live.access import Address, check_address
 from studio.engine.sources import read_skeletons
 
 ROOT = Path(__file__).resolve().parent.parent
+DOCS = ROOT / "docs"
 README = (ROOT / "README.md").read_text()
+PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
+PICTURES = sorted((DOCS / "pictures").iterdir())
+LARGEST_PICTURE = 2_000_000  # bytes
 
 
-FIELD_PAGE = (ROOT / "docs" / "field.md").read_text()
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+def blocks(language: str, *pages: Path) -> list[str]:
+    texts = (page.read_text() for page in pages)
+    return [b for text in texts for b in re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)]
 
 
-def blocks(language: str, text: str = README) -> list[str]:
-    return re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
-
-
-@pytest.mark.parametrize("code", blocks("python") + blocks("python", FIELD_PAGE))
+@pytest.mark.parametrize("code", blocks("python", DOCS / "extending.md", DOCS / "field.md"))
 def test_python_runs(code: str, capfd) -> None:
-    exec(compile(code, "README.md", "exec"), {})
+    exec(compile(code, "a page", "exec"), {})
     assert capfd.readouterr().out
 
 
-COMMANDS = [line.partition("#")[0].strip() for block in blocks("sh") for line in block.splitlines()]
+COMMANDS = [
+    line.partition("#")[0].strip() for block in blocks("sh", *PAGES) for line in block.splitlines()
+]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -57,12 +60,12 @@ def test_commands_are_understood(command: str, tmp_path: Path) -> None:
 
 
 def test_the_formats_example_is_the_format(tmp_path: Path) -> None:
-    (example,) = blocks("json")
+    (example,) = blocks("json", DOCS / "files.md")
     frame = json.loads(example)
     for key, whole in (("positions", [0.1, 0.2, 2.0]), ("tracking", 2)):
         assert frame[key][0] == whole
         frame[key] = [whole] * 25
-    empty = re.search(r"`(\{\"skeleton\": 1, \"time\": 0.5\})`", README)
+    empty = re.search(r"`(\{\"skeleton\": 1, \"time\": 0.5\})`", (DOCS / "files.md").read_text())
     assert empty is not None
     (tmp_path / "example").write_text(f"{json.dumps(frame)}\n{empty[1]}\n")
     read = read_skeletons(tmp_path / "example")
@@ -92,6 +95,30 @@ def test_its_tokens_are_long_enough() -> None:
             check_address(Address("0.0.0.0"), token)
 
 
-def test_every_picture_exists() -> None:
-    for picture in re.findall(r"!\[.*?\]\((.*?)\)", README):
-        assert (ROOT / picture).stat().st_size > 10_000
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_picture_that_is_shown_exists(page: Path) -> None:
+    for picture in re.findall(r"!\[.*?\]\((.*?)\)", page.read_text()):
+        assert (page.parent / picture).stat().st_size > 10_000, picture
+
+
+@pytest.mark.parametrize("picture", PICTURES, ids=lambda picture: picture.name)
+def test_every_picture_is_light_and_found_from_a_page(picture: Path) -> None:
+    assert picture.stat().st_size < LARGEST_PICTURE
+    assert any(f"pictures/{picture.name})" in page.read_text() for page in PAGES)
+
+
+def test_the_readme_begins_with_something_that_moves() -> None:
+    first = README.index("![")
+    (name,) = re.findall(r"!\[.*?\]\((.*?)\)", README)[:1]
+    assert first < 600
+    assert (ROOT / name).read_bytes().count(b"ANMF") > 20  # the frames of an animated WebP
+
+
+@pytest.mark.parametrize("guide", ["README.md", "docs/lecturers.md", "docs/students.md"])
+def test_what_a_guide_has_in_bold_stands_on_the_page(guide: str) -> None:
+    panels = "".join(path.read_text() for path in (ROOT / "studio" / "panels").glob("*.py"))
+    steps = re.split("^## (?:Words|Where)", (ROOT / guide).read_text(), flags=re.MULTILINE)[0]
+    bold = [" ".join(words.split()) for words in re.findall(r"\*\*(.+?)\*\*", steps, re.DOTALL)]
+    labels = {label for words in bold for label in words.split(", ")}
+    assert len(labels) > 5
+    assert [label for label in sorted(labels) if label not in panels] == []

@@ -6,7 +6,7 @@ that computer. It needs the packages pykinect2 (with numpy and comtypes) and web
 
     python kinect.py --to "ws://192.168.1.20:8765/?token=..."
 
-One message a frame goes to the studio: a line of JSON for each person, as the studio's README
+One message a frame goes to the studio: a line of JSON for each person, as its docs/files.md
 describes them. The SDK's camera space, order of joints and numbers are the studio's too.
 
 It has been tested against a stand-in of PyKinect2 only: it has not met a Kinect.

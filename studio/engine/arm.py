@@ -119,7 +119,14 @@ class ArmStages:
         return None if direction is None else self._as_ours(direction)
 
     def _as_ours(self, direction: Vector) -> Vector:
-        """Return a direction of the person's arm as this arm should take it."""
-        if self.calibration is not None:
-            direction = self.calibration.correct(direction)
-        return (direction[0], -direction[1], direction[2]) if self.mirrored else direction
+        return as_ours(direction, self.mirrored, self.calibration)
+
+
+def as_ours(direction: Vector, mirrored: bool, calibration: Calibration | None) -> Vector:
+    """Return a direction of the person's arm, in the torso's frame, as the robot's should take it.
+
+    The lean of the torso is taken away first, and then left and right are exchanged, if asked for.
+    """
+    if calibration is not None:
+        direction = calibration.correct(direction)
+    return (direction[0], -direction[1], direction[2]) if mirrored else direction

@@ -10,7 +10,7 @@ from studio.engine.performance import start_world
 from studio.engine.pipeline import Pipeline
 from studio.engine.retarget import Mapping
 from studio.engine.robot import load_robot
-from studio.engine.world import World
+from studio.engine.world import Scene, World
 
 
 @dataclass(frozen=True)
@@ -41,9 +41,9 @@ class Choices:
             self.hands,
         )
 
-    def start_world(self) -> World:
-        """Return a fresh world in which the robot waits to be taught."""
-        return start_world(self.arms, self.mapping, self.hands)
+    def start_world(self, scene: Scene | None = None) -> World:
+        """Return a fresh world in which the robot waits, with the usual scene unless given one."""
+        return start_world(self.arms, self.mapping, self.hands, scene)
 
     def starts_as(self, other: "Choices") -> bool:
         """Tell whether the robot waits in the same pose, with the same hands."""

@@ -85,7 +85,7 @@ class LogReader:
                 self.whole = self._file.tell()
                 if found:
                     return found
-        except _BROKEN as error:
+        except BROKEN as error:
             self.problem = ascii(str(error))[1:-1] or type(error).__name__
         return []
 
@@ -125,7 +125,7 @@ def is_mcap(path: Path) -> bool:
 
 
 # What the reader and the decompressor raise on damage; all of it means "stop here".
-_BROKEN = (
+BROKEN = (
     McapError,
     StudioError,
     EOFError,

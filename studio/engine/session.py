@@ -12,31 +12,26 @@ from functools import partial
 from pathlib import Path
 
 from studio.engine import commands
-from studio.engine.activity import (
-    LONGEST_RECORDING,
-    Activity,
-    Follow,
-    Hold,
-    Perform,
-    next_recording_path,
-)
+from studio.engine.activity import Activity, Follow, Hold
 from studio.engine.calibrating import INVITATION, Calibrating
 from studio.engine.calibration import in_words
 from studio.engine.choices import Choices
+from studio.engine.collection import Collection
 from studio.engine.commands import Command
-from studio.engine.errors import FileError, StudioError
-from studio.engine.faults import Faults
-from studio.engine.listed import Listed, why_nothing_armed
+from studio.engine.comparing import Comparing
+from studio.engine.errors import StudioError
+from studio.engine.exporting import Exporting
+from studio.engine.films import Film
+from studio.engine.learning import Learning
 from studio.engine.live.source import LiveSource
-from studio.engine.mcap_file import is_recording, read_recording
-from studio.engine.measures import deviation
-from studio.engine.performance import in_guards_words
 from studio.engine.pipeline import NO_LAG
-from studio.engine.recording import Recording
-from studio.engine.snapshot import Message, Snapshot
-from studio.engine.sources import read_skeletons
-from studio.engine.teaching import Lesson, Reproduction, learn
+from studio.engine.showing import Show
+from studio.engine.snapshot import Snapshot
+from studio.engine.taking import Taking
+from studio.engine.tape import NO_PLAN, Plan
+from studio.engine.telling import Telling
 from studio.engine.who_teaches import WhoTeaches
+from studio.engine.workplace import Workplace
 
 
 class Session:
@@ -50,21 +45,32 @@ class Session:
         The demonstrator's.
     live
         Where live streams come in, if any are taken.
+    work
+        Where it learns; without one, in its ticks.
     """
 
-    def __init__(self, recordings: Path, seed: int = 0, live: LiveSource | None = None) -> None:
-        self._recordings = recordings
+    def __init__(
+        self,
+        recordings: Path,
+        seed: int = 0,
+        live: LiveSource | None = None,
+        work: Workplace | None = None,
+    ) -> None:
         self._inbox: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self._choices, self._calibrated_with = Choices(), ""
         self._who = WhoTeaches(seed, live)
-        self._listed = Listed()
-        self._faults = Faults()
-        self._lesson: Lesson | None = None
-        self._reproduction: Reproduction | None = None
-        self._message = Message(0, "Ready: choose a source and record, or train on the samples.")
-        self._saved_as = ""
+        self._collection = Collection(recordings, self.post)
+        self._listed = self._collection.listed
+        self._taking = Taking(recordings, self._collection)
+        self._learning = Learning(self._listed, work)
+        self._comparing = Comparing()
+        self._exporting = Exporting(self._listed, self._learning, seed, self.post)
+        self._telling = Telling(
+            "Ready: choose a source and record, or train on the samples.", self._hold
+        )
+        self._say, self._attempt = self._telling.say, self._telling.attempt
         self._activity: Activity = Hold(self._choices.start_world())
-        self.snapshot = self._draw()
+        self._draw()
 
     def post(self, command: Command) -> None:
         """Put a command into the inbox; it takes effect at the next tick. Any thread may call."""
@@ -80,7 +86,12 @@ class Session:
             self._attempt(partial(self._take_command, command))
         if not self._attempt(self._step):
             self._attempt(self._hold)
-        self.snapshot = self._draw()
+        self._attempt(self._look)
+        self._attempt(self._collection.step)
+        self._attempt(lambda: self._say(self._learning.tick(self._choices, self._activity.mode)))
+        self._attempt(lambda: self._say(self._exporting.tick(self._choices)))
+        if not self._attempt(self._draw):
+            self._attempt(self._draw)  # a robot that holds still by now
         return self.snapshot
 
     @property
@@ -90,38 +101,54 @@ class Session:
 
     def close(self) -> None:
         """End the session; what is being recorded is kept."""
+        self._who.close()
+        self._attempt(self._collection.close)
+        self._learning.close()
+        self._exporting.close()
         try:
             self._activity.close()
         finally:
             self._activity.world.close()
 
-    def _attempt(self, work: Callable[[], None]) -> bool:
-        """Do some work; an error becomes a message, the session lives."""
-        try:
-            work()
-        except (StudioError, OSError) as error:  # in a file or a request
-            self._say(str(error), is_error=True)
-            return False
-        except Exception as fault:  # of ours: whatever was half done, the robot stops
-            self._attempt(self._hold)
-            self._say(self._faults.in_words(fault), is_error=True)
-            return False
-        return True
-
     def _step(self) -> None:
         if not self._activity.step():
             self._finish()
+        elif isinstance(self._activity, Follow) and self._activity.take_is_over:
+            self._follow(self._taking.next_path(), Plan(repeats=True))
+        elif isinstance(self._activity, Show) and self._activity.is_through:
+            self._say(self._comparing.judge(self._activity.film, self._learning))
 
-    def _take_command(self, command: Command) -> None:  # noqa: C901, PLR0912 - one case a command
+    def _take_command(self, command: Command) -> None:
+        """Give a command to the part that it is for."""
+        if isinstance(command, commands.SourceCommand):
+            self._say(self._who.take(command))
+        elif isinstance(command, commands.TeachCommand):
+            self._say(self._collection.take(command))
+        elif isinstance(command, commands.TakeCommand):
+            self._say(self._taking.mark(self._activity, command))
+        elif isinstance(command, commands.LearnCommand):
+            self._say(self._learning.take(command, self._choices))
+        elif isinstance(command, commands.TimelineCommand):
+            asked = self._comparing.asked(command, self._activity, self._learning, self._listed)
+            self._show(asked)
+        elif isinstance(command, commands.ExportCommand):
+            self._say(self._exporting.take(command, self._choices))
+        elif isinstance(command, commands.CompareCommand):
+            self._compare(command)
+        else:
+            self._act(command)
+
+    def _act(self, command: commands.ActCommand) -> None:
         match command:
             case commands.Stop():
+                if isinstance(self._activity, Show):
+                    self._say(self._activity.pause())
+                else:
+                    self._finish(stopped=True)
+                self._say(self._learning.cancel())
+            case commands.LetGo(why) if isinstance(self._activity, Follow):
                 self._finish(stopped=True)
-            case commands.UseDemonstrator():
-                self._say(self._who.use_demonstrator())
-            case commands.UseFile():
-                self._use_file(command)
-            case commands.UseLive():
-                self._say(self._who.use_live())
+                self._say(f"{why} {self._telling.message.text}")
             case commands.Configure():
                 self._configure(command.choices)
             case commands.Calibrate():
@@ -131,31 +158,20 @@ class Session:
                 self._say("Calibration forgotten.")
             case commands.Watch():
                 self._follow(None)
-            case commands.Record():
-                self._follow(next_recording_path(self._recordings))
-            case commands.Remove(index):
-                removed = self._listed.remove(index)
-                self._say(f"Took {removed.name} off the list; its file stays.")
-            case commands.Choose(index):
-                self._listed.choose(index)
-            case commands.Train(settings):
-                chosen = self._choices
-                self._lesson = learn(self._listed.taught(chosen.arms, chosen.mapping), settings)
-                self._reproduction = None
-                self._say(f"Learned with {settings.neurons} neurons. Now let Baxter play it.")
-            case commands.PlayReproduction():
-                self._play_reproduction()
-            case commands.PlayDemonstration():
-                self._play_demonstration()
+            case commands.Record(repeats):
+                self._follow(self._taking.next_path(), Plan(repeats=repeats))
+            case commands.RecordAgain():
+                self._who.show_again()
+                plan = self._taking.again(self._activity, command, partial(self._finish, True))
+                self._follow(self._taking.next_path(), plan)
 
-    def _use_file(self, command: commands.UseFile) -> None:
-        try:
-            if is_recording(command.path):
-                self._add(read_recording(command.path), command.shown)
-            else:
-                self._say(self._who.use_stream(read_skeletons(command.path), command.shown))
-        except FileError as error:  # names the copy; the user knows the file by its own name
-            raise FileError(str(error).replace(str(command.path), command.shown)) from error
+    def _look(self) -> None:
+        """Let who teaches know of the tick, and take what was read meanwhile."""
+        found = self._who.tick(self._activity)
+        if isinstance(found, str):
+            self._say(found)
+        else:
+            self._say(self._collection.add(found.recording, found.name, found.path))
 
     def _configure(self, chosen: Choices) -> None:
         if isinstance(self._activity, Follow):
@@ -163,9 +179,10 @@ class Session:
         before = self._choices
         self._choices = replace(chosen, calibration=before.calibration)
         if chosen.joints != before.joints:
-            self._lesson = self._reproduction = None
+            self._learning.forget()
+            self._comparing.forget()
         if not chosen.starts_as(before):
-            self._begin(lambda: Hold(chosen.start_world()))
+            self._begin(lambda: Hold(self._comparing.start_world(chosen)))
 
     def _calibrate(self) -> None:
         teacher = self._who.required()
@@ -173,24 +190,31 @@ class Session:
         self._activity = Calibrating(teacher, self._activity.world)
         self._say(INVITATION)
 
-    def _follow(self, path: Path | None) -> None:
+    def _follow(self, path: Path | None, plan: Plan = NO_PLAN) -> None:
         teacher, pipeline = self._who.required(), self._choices.pipeline()
-        self._begin(lambda: Follow(teacher, pipeline, path))
+        scene = self._comparing.scene(pipeline.arms)
+        self._begin(lambda: Follow(teacher, pipeline, path, scene, plan))
         self._say("Recording." if path else "Watching, not recording.")
 
-    def _play_reproduction(self) -> None:
-        lesson = self._lesson
-        if lesson is None:
-            raise StudioError("Train first: there is nothing learned to play")
-        ghost = self._listed.at(self._listed.chosen) if self._listed.entries else None
-        self._reproduction = None
-        self._begin(lambda: Perform.lesson_alone(lesson, ghost))
-        self._say("Baxter does it alone.")
+    def _compare(self, command: commands.CompareCommand) -> None:
+        moves = isinstance(command, commands.PlaceBlock | commands.PutBlockBack)
+        if moves and not isinstance(self._activity, Hold | Show):
+            raise StudioError("Somebody teaches: press Stop first, then move the block")
+        words = self._comparing.take(command, self._learning.lesson, self._choices.arms)
+        if moves:
+            self._begin(lambda: Hold(self._comparing.start_world(self._choices)))
+        self._say(words)
 
-    def _play_demonstration(self) -> None:
-        shown = self._listed.at(self._listed.chosen)
-        self._begin(lambda: Perform.replay(shown))
-        self._say(f"Replaying {shown.name}.")
+    def _show(self, film: Film | None) -> None:
+        """Put something on the timeline; it keeps the present world unless it brings its own."""
+        if film is None:
+            return
+        self._finish(stopped=True)
+        held = self._activity.world
+        self._activity = Show(film, self._comparing.timeline, film.world or held)
+        if film.world is not None:
+            held.close()
+        self._say(film.words)
 
     def _begin(self, build: Callable[[], Activity]) -> None:
         """End what goes on, and go on with something in another world."""
@@ -210,24 +234,13 @@ class Session:
         ended = self._activity
         self._hold()
         if isinstance(ended, Follow):
-            self._keep(ended)
+            self._attempt(lambda: self._say(self._taking.keep(ended.tape)))
+        elif isinstance(ended, Show):
+            self._comparing.timeline = ended.timeline  # speed and loop stay
         elif stopped and not isinstance(ended, Hold):
             self._say("Stopped.")
         elif isinstance(ended, Calibrating):
             self._take_calibration(ended)
-        elif isinstance(ended, Perform):
-            self._judge(ended)
-
-    def _keep(self, ended: Follow) -> None:
-        if ended.writer is None:
-            self._say("Stopped watching.")
-        elif ended.samples:
-            self._saved_as = str(ended.writer.path)
-            self._add(ended.recording, ended.writer.path.stem)
-            if ended.is_full:
-                self._say(
-                    f"{self._message.text} {LONGEST_RECORDING // 60} minutes are the longest."
-                )
 
     def _take_calibration(self, ended: Calibrating) -> None:
         if ended.found is None:
@@ -236,33 +249,18 @@ class Session:
         self._calibrated_with = ended.teacher.path
         self._say(f"Calibrated for what is taught next: {in_words(ended.found)}.")
 
-    def _judge(self, ended: Perform) -> None:
-        down = "The block is down." if ended.world.state.block_down else "The block stands."
-        if ended.lesson is not None and ended.lesson is self._lesson:
-            taught = ended.lesson.taught
-            error = deviation(ended.performance, taught.mean, taught.joints, taught.hands)
-            self._reproduction = Reproduction(ended.performance, error)
-        self._say(f"{down} {in_guards_words(ended.performance)}".strip())
-
-    def _add(self, recording: Recording, name: str) -> None:
-        found = self._listed.add(recording, name)
-        if found:
-            self._say(recording.warning or f"Added {', '.join(each.name for each in found)}.")
-        else:
-            self._say(why_nothing_armed(recording, name), is_error=True)
-
-    def _say(self, text: str, is_error: bool = False) -> None:
-        self._message = Message(self._message.number + 1, text, is_error)
-
-    def _draw(self) -> Snapshot:
+    def _draw(self) -> None:
+        """Publish what all this looks like by now."""
         now = self._activity
         following = now if isinstance(now, Follow) else None
         newest = following.newest if following else None
         watching = now if isinstance(now, Follow | Calibrating) else None
         shown = watching or self._who.chosen
-        return Snapshot(
-            mode=now.mode,
-            message=self._message,
+        show = now if isinstance(now, Show) else None
+        seen = show.seen if show else None
+        self.snapshot = Snapshot(
+            mode=self._learning.mode(now.mode),
+            message=self._telling.message,
             time=now.time,
             duration=now.duration,
             choices=self._choices,
@@ -270,19 +268,23 @@ class Session:
             calibrating=now.progress if isinstance(now, Calibrating) else None,
             source=self._who.status(),
             live=self._who.live(watching.teacher if watching else None),
-            skeleton=shown.skeleton if shown else None,
+            who=self._who.shown(now),
+            skeleton=seen.skeleton if seen else shown.skeleton if shown else None,
             gate=newest.gate if newest else None,
             held=newest.held if newest else "",
             guarded=now.guarded,
-            guarded_ticks=now.guarded_ticks if isinstance(now, Perform) else 0,
             lag=newest.lag if newest else NO_LAG,
-            alone=isinstance(now, Perform) and now.lesson is not None,
-            world=now.world.state,
+            alone=show is not None and show.is_alone and show.is_playing,
+            world=seen.world if seen else now.world.state,
             entries=tuple(self._listed.entries),
-            chosen=self._listed.chosen,
-            ghost=now.ghost if isinstance(now, Perform) else None,
-            lesson=self._lesson,
-            reproduction=self._reproduction,
-            recorded=len(following.samples) if following and following.writer else 0,
-            saved_as=self._saved_as,
+            chosen=self._listed.index,
+            collection=self._collection.status(),
+            ghost=seen.ghost if seen else None,
+            learning=self._learning.status,
+            lesson=self._learning.lesson,
+            reproduction=self._learning.reproduction,
+            compare=self._comparing.status(show, self._learning, self._listed),
+            export=self._exporting.status,
+            recorded=len(following.samples) if following else 0,
+            saved_as=self._taking.saved_as,
         )

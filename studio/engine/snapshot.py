@@ -4,13 +4,18 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from studio.engine.choices import Choices
-from studio.engine.demonstration import Demonstration
+from studio.engine.collection import CollectionStatus
+from studio.engine.compare_status import CompareStatus
+from studio.engine.entry import Entry
+from studio.engine.export_status import ExportStatus
 from studio.engine.gate import GateStatus
+from studio.engine.learning_status import LearningStatus
 from studio.engine.live.status import LiveStatus
 from studio.engine.pipeline import Lag
 from studio.engine.skeleton import FloatArray, Skeleton
 from studio.engine.sources import SkeletonRecording
 from studio.engine.teaching import Lesson, Reproduction
+from studio.engine.who_status import WhoStatus
 from studio.engine.world import WorldState
 
 
@@ -23,6 +28,7 @@ class Mode(StrEnum):
     RECORDING = "recording"
     PLAYING = "playing"
     CALIBRATING = "calibrating"
+    TRAINING = "training"  # somebody waits for what is being computed; the robot holds still
 
 
 @dataclass(frozen=True)
@@ -39,14 +45,6 @@ class SourceStatus:
     def of(cls, stream: SkeletonRecording) -> "SourceStatus":
         """Return what people should know of a stream."""
         return cls(stream.path, stream.frames, stream.seconds, stream.has_hand_states)
-
-
-@dataclass(frozen=True, eq=False)
-class Entry:
-    """A demonstration on the list."""
-
-    demonstration: Demonstration
-    block_down: bool  # when it was taught
 
 
 @dataclass(frozen=True)
@@ -78,19 +76,23 @@ class Snapshot:
     calibrated_with: str  # the source that the choices' calibration was taken from
     calibrating: Progress | None  # None while nobody calibrates
     source: SourceStatus | None
+    who: WhoStatus  # what else there is to tell of who teaches
     live: LiveStatus | None  # the live streams that may be the source; None where none are taken
     skeleton: Skeleton | None  # the newest one; the source's first while nobody is watched
     gate: GateStatus | None  # None while nobody is watched
     held: str  # why the robot does not follow
     guarded: str  # what the collision guard keeps apart at this moment, in words
-    guarded_ticks: int  # how many ticks it has changed of what is being played
     lag: Lag  # by which what is sent is behind the person
     alone: bool  # it plays what it learned, not a demonstration
     world: WorldState
     entries: tuple[Entry, ...]
     chosen: int  # index of the ghost's demonstration; -1 for none
+    collection: CollectionStatus  # recordings, and what was deleted
     ghost: FloatArray | None  # (15,) [rad], the chosen demonstration at this moment of playing
+    learning: LearningStatus
     lesson: Lesson | None
     reproduction: Reproduction | None
+    compare: CompareStatus
+    export: ExportStatus
     recorded: int  # ticks in the recording that is being made
     saved_as: str  # the last recording's file

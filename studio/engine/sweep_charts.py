@@ -4,9 +4,8 @@ import numpy as np
 
 from studio.engine.arms import short_names, sides_of
 from studio.engine.demonstration import SAMPLES
-from studio.engine.measures import hand_path
+from studio.engine.measures import body_as_meant, hand_path
 from studio.engine.paper import PAPER_JOINTS, paper_table
-from studio.engine.performance import whole_body
 from studio.engine.robot import BASE_HEIGHT
 from studio.engine.scene import Scene
 from studio.engine.skeleton import FloatArray
@@ -92,7 +91,7 @@ def path_charts(table: Sweep) -> str:
     """Return the hand's measured path from three sides: the paper's Fig. 10 (d)."""
     taught = table.taught
     sides = sides_of(taught.arms)
-    meant = whole_body(taught.mean, taught.joints)
+    meant = body_as_meant(taught.mean, taught.joints, taught.arms, taught.duration, taught.hands)
     intended = [hand_path(meant, side) for side in sides]
     stamps = np.linspace(0.0, taught.duration, SAMPLES)
     paths = [

@@ -1,5 +1,6 @@
 """How Baxter is taught: which arm, mirrored or not, mapping, gate, gripper and wrist."""
 
+import math
 from collections.abc import Mapping as Labels
 from typing import TypeVar
 
@@ -10,7 +11,8 @@ from studio.engine.arms import Arms
 from studio.engine.choices import Choices
 from studio.engine.gate import GateMode
 from studio.engine.hands import HandOptions
-from studio.engine.retarget import Mapping
+from studio.engine.pose_reading import read_pose
+from studio.engine.retarget import MEDIAN_PAPER_FOREARM_ERROR, Mapping
 from studio.engine.snapshot import Snapshot
 from studio.engine.wrist import WristMode
 from studio.panels import markup
@@ -24,10 +26,6 @@ WRISTS: dict[WristMode, str] = {
     "zero": "straight",
     "level": "held level",
     "follow": "follows your hand",
-}
-_MAPPING_NOTES: dict[Mapping, str] = {
-    "exact": "Upper arm and forearm point where yours do.",
-    "paper": "e0 stays 0: the forearm is 48° off in the median.",
 }
 _GATE_NOTES: dict[GateMode, str] = {
     "sequence": "Your left hand signs before Baxter moves.",
@@ -76,6 +74,7 @@ class SettingsPanel:
         if (chosen, now.message.number) != self._drawn:
             self._drawn = chosen, now.message.number
             self._show(chosen)
+        self._how.content = markup.note(forearm(chosen.mapping, now))
         refusal = why_not_configure(now)
         for control in self._controls:
             control.disabled = bool(refusal)
@@ -89,7 +88,6 @@ class SettingsPanel:
         show_value(self._gripper, chosen.hands.gripper)
         show_value(self._wrist, WRISTS[chosen.hands.wrist])
         self._whose.content = markup.note(whose_arm(chosen))
-        self._how.content = markup.note(_MAPPING_NOTES[chosen.mapping])
         self._when.content = markup.note(_GATE_NOTES[chosen.gate])
         self._fingers.content = markup.note(fingers(chosen))
         self._hand.content = markup.note(_WRIST_NOTES[chosen.hands.wrist])
@@ -112,6 +110,21 @@ def whose_arm(chosen: Choices) -> str:
     if chosen.mirrored:
         yours = "right" if chosen.arms == "left" else "left"
     return f"Baxter's {chosen.arms} arm does what your {yours} arm does."
+
+
+def forearm(mapping: Mapping, now: Snapshot) -> str:
+    """Return how far a mapping's forearm is from the person's, in the pose that is shown."""
+    if mapping == "exact":
+        words = "Upper arm and forearm point where yours do."
+    else:
+        usual = math.degrees(MEDIAN_PAPER_FOREARM_ERROR)
+        words = f"e0 stays 0, so the forearm is {usual:.0f}° off in the median of real people."
+    if now.skeleton is None:
+        return words
+    readings = read_pose(now.skeleton, now.choices, now.world.joint_positions)
+    errors = [math.degrees(each.errors[mapping]) for each in readings if each.errors]
+    here = ", ".join(f"{error:.0f}°" for error in errors)
+    return f"{words} In this pose: {here} off." if errors else f"{words} Now the arm is not seen."
 
 
 def fingers(chosen: Choices) -> str:

@@ -19,8 +19,11 @@ from studio.engine.live.access import is_loopback
 _WHY = "this page was not served by the studio: open the address that the studio prints"
 
 
-def turn_strangers_away(server: viser.ViserServer) -> None:
-    """Let pages of other sites in no more; whoever is connected already has to come again."""
+def turn_strangers_away(server: viser.ViserServer, bound: str) -> None:
+    """Let pages of other sites in no more; whoever is connected already has to come again.
+
+    ``bound`` is the address that the studio listens on.
+    """
     # viser has no public way to a connection's request, nor to its server before that has begun.
     sockets = server._websock_server
 
@@ -29,7 +32,7 @@ def turn_strangers_away(server: viser.ViserServer) -> None:
         asked = connection.request
         headers = Headers() if asked is None else asked.headers
         origins, hosts = headers.get_all("Origin"), headers.get_all("Host")
-        if asked is None or is_stranger(origins, hosts, server.get_host()):
+        if asked is None or is_stranger(origins, hosts, bound):
             await connection.close(CloseCode.POLICY_VIOLATION, _WHY)
             with contextlib.suppress(ConnectionClosed):
                 while True:  # what it has sent already is never handled

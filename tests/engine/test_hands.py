@@ -4,8 +4,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studio.engine.activity import Perform
 from studio.engine.demonstration import DemonstrationSet, demonstrations_of
+from studio.engine.export.material import Take
+from studio.engine.films import LessonFilm, Solo
 from studio.engine.fingers import CLOSED, OPEN
 from studio.engine.follow import follow
 from studio.engine.gripper import GripMemory
@@ -16,6 +17,7 @@ from studio.engine.performance import perform
 from studio.engine.pipeline import Pipeline
 from studio.engine.recording import Recording
 from studio.engine.robot import CONTROL_PERIOD, load_robot
+from studio.engine.scene import Scene
 from studio.engine.signs import HandMemory
 from studio.engine.skeleton import Hand, HandState, Joint, Skeleton, Tracking
 from studio.engine.sources.demonstrator import demonstrate
@@ -229,12 +231,10 @@ def test_the_ghost_of_a_demonstration_has_its_wrists(recording: Recording) -> No
         assert tuple(joints[4:7]) == shown.hands.at(time).wrist
     assert np.abs(shown.hands.wrist).max() > 0.3
     lesson = learn(DemonstrationSet.of([shown]), LearnerSettings("rbf", 20))
-    alone = Perform.lesson_alone(lesson, shown)
-    while alone.time < 1.0:
-        alone.step()
-    alone.world.close()
-    assert alone.ghost is not None
-    np.testing.assert_allclose(alone.ghost[4:7], shown.hands.at(alone.time).wrist)
+    film = LessonFilm([Solo(lesson, Scene())], Take(shown, recording))
+    ghost = film.at(1.0).ghost
+    film.world.close()
+    np.testing.assert_allclose(ghost[4:7], shown.hands.at(1.0).wrist)
 
 
 def track(closed: list[bool], duration: float = 3.0) -> HandTrack:

@@ -7,15 +7,14 @@ import pytest
 from mcap.writer import Writer
 
 from studio.engine import commands
-from studio.engine.activity import Perform
+from studio.engine.activity import Follow
 from studio.engine.arms import driven_joints
 from studio.engine.choices import Choices
-from studio.engine.commands import Command
-from studio.engine.demonstration import Demonstration
 from studio.engine.errors import StudioError
 from studio.engine.follow import follow
 from studio.engine.hands import HandOptions
 from studio.engine.mcap_file import read_recording
+from studio.engine.perform import Perform
 from studio.engine.performance import in_guards_words, joint_columns
 from studio.engine.pipeline import Pipeline, ready_pose
 from studio.engine.robot import load_robot
@@ -25,8 +24,9 @@ from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.sources import write_skeletons
 from studio.engine.sources.demonstrator import demonstrate
 from studio.engine.sources.recording import from_skeletons
-from studio.engine.teaching import LearnerSettings
+from studio.engine.teaching import LearnerSettings, Lesson
 from tests.engine.people import stand
+from tests.engine.sessions import do, read
 
 
 @pytest.fixture
@@ -34,12 +34,6 @@ def session(tmp_path: Path):
     made = Session(tmp_path / "recordings")
     yield made
     made.close()
-
-
-def do(session: Session, *orders: Command) -> Snapshot:
-    for order in orders:
-        session.post(order)
-    return session.tick()
 
 
 def until(session: Session, mode: Mode, most: int = 900) -> Snapshot:
@@ -127,7 +121,9 @@ def test_a_full_disk_is_said_and_the_session_lives(session: Session, monkeypatch
     assert do(session, commands.Watch()).mode is Mode.WATCHING
 
 
-def test_any_fault_in_a_tick_is_said_and_the_session_holds_still(session, monkeypatch) -> None:
+def test_any_fault_in_a_tick_is_said_and_the_session_holds_still(
+    session, tmp_path, monkeypatch
+) -> None:
     def break_down(*_: object) -> None:
         raise OverflowError("nobody foresaw it")
 
@@ -139,9 +135,20 @@ def test_any_fault_in_a_tick_is_said_and_the_session_holds_still(session, monkey
     assert (broken.mode, broken.message.is_error) == (Mode.IDLE, True)
     assert "nothing recorded is lost" in broken.message.text
     monkeypatch.undo()
-    (kept,) = session._recordings.iterdir()
+    (kept,) = (tmp_path / "recordings").iterdir()
     assert len(read_recording(kept).samples) == 31
     assert do(session, commands.Watch()).mode is Mode.WATCHING
+
+
+def test_a_fault_in_what_is_drawn_ends_it_and_not_the_studio(session, monkeypatch) -> None:
+    def break_down(*_: object) -> None:
+        raise OverflowError("nobody foresaw it")
+
+    do(session, commands.UseDemonstrator(), commands.Watch())
+    monkeypatch.setattr(Follow, "guarded", property(break_down))
+    broken = session.tick()
+    assert (broken.mode, broken.message.is_error) == (Mode.IDLE, True)
+    assert "OverflowError" in broken.message.text
 
 
 @pytest.mark.parametrize("fault", [OverflowError(), RecursionError(), KeyError("x"), MemoryError()])
@@ -152,8 +159,8 @@ def test_any_fault_in_a_command_is_said_and_the_session_holds_still(
         raise fault
 
     do(session, commands.UseDemonstrator(), commands.Watch())
-    monkeypatch.setattr("studio.engine.session.is_recording", break_down)
-    broken = do(session, commands.UseFile(Path("any")))
+    monkeypatch.setattr("studio.engine.who_teaches.demonstrate", break_down)
+    broken = do(session, commands.UseDemonstrator())
     assert (broken.mode, broken.message.is_error) == (Mode.IDLE, True)
     assert f"Internal fault: {type(fault).__name__}" in broken.message.text
     before = broken.world.joint_positions
@@ -174,7 +181,8 @@ def test_any_fault_in_a_command_is_said_and_the_session_holds_still(
         (commands.PlayDemonstration(), "no such demonstration"),
         (commands.Choose(3), "no such demonstration"),
         (commands.Remove(0), "no such demonstration"),
-        (commands.UseFile(Path("/nowhere/at-all.json")), "at-all.json"),
+        (commands.DragHand("left", (0.0, 0.0, 2.0)), "Take the puppet first"),
+        (commands.FollowBody("1"), "Take a file first"),
     ],
 )
 def test_what_cannot_be_done_is_said_and_the_session_lives(session, order, words: str) -> None:
@@ -187,7 +195,7 @@ def test_what_cannot_be_done_is_said_and_the_session_lives(session, order, words
 def test_a_broken_upload_says_so_under_its_own_name(session: Session, tmp_path: Path) -> None:
     path = tmp_path / "x81231"
     path.write_bytes(b"\x00\x01not a skeleton")
-    refused = do(session, commands.UseFile(path, "my take.json"))
+    refused = read(session, commands.UseFile(path, "my take.json"))
     assert refused.message.is_error
     assert "my take.json" in refused.message.text
     assert str(tmp_path) not in refused.message.text
@@ -196,7 +204,8 @@ def test_a_broken_upload_says_so_under_its_own_name(session: Session, tmp_path: 
 def test_a_stream_that_never_arms_teaches_nothing_and_says_why(session, tmp_path: Path) -> None:
     path = tmp_path / "never.jsonl"
     write_skeletons(path, demonstrate(0, 1, (HandState.OPEN, HandState.CLOSED)))
-    do(session, commands.UseFile(path), commands.Record())
+    read(session, commands.UseFile(path))
+    do(session, commands.Record())
     ended = until(session, Mode.IDLE)
     assert ended.entries == ()
     assert ended.message.is_error
@@ -206,10 +215,14 @@ def test_a_stream_that_never_arms_teaches_nothing_and_says_why(session, tmp_path
 def test_recordings_come_back_and_go(session: Session, tmp_path: Path) -> None:
     do(session, commands.UseDemonstrator(), commands.Record())
     saved = Path(until(session, Mode.IDLE).saved_as)
-    assert len(do(session, commands.UseFile(saved)).entries) == 2
-    assert do(session, commands.Choose(1)).chosen == 1
+    twice = read(session, commands.UseFile(saved))
+    assert "on the list already" in twice.message.text
+    assert len(twice.entries) == 1
     left = do(session, commands.Remove(1))
-    assert (len(left.entries), left.chosen) == (1, 0)
+    assert (left.entries, left.chosen) == ((), -1)
+    again = read(session, commands.UseFile(saved))
+    assert [entry.number for entry in again.entries] == [2]
+    assert again.chosen == 0
     assert saved.exists()
 
 
@@ -262,7 +275,7 @@ def standing_file(tmp_path: Path, lean: float = 0.1) -> Path:
 
 
 def test_a_calibration_is_kept_for_what_is_taught_next(session: Session, tmp_path: Path) -> None:
-    do(session, commands.UseFile(standing_file(tmp_path)))
+    read(session, commands.UseFile(standing_file(tmp_path)))
     before = session.snapshot.world.joint_positions
     calibrating = do(session, commands.Calibrate())
     assert calibrating.mode is Mode.CALIBRATING
@@ -281,7 +294,8 @@ def test_a_calibration_is_kept_for_what_is_taught_next(session: Session, tmp_pat
 
 
 def test_a_calibration_that_fails_keeps_the_one_before(session: Session, tmp_path: Path) -> None:
-    do(session, commands.UseFile(standing_file(tmp_path)), commands.Calibrate())
+    read(session, commands.UseFile(standing_file(tmp_path)))
+    do(session, commands.Calibrate())
     found = until(session, Mode.IDLE).choices.calibration
     do(session, commands.UseDemonstrator(), commands.Calibrate())
     failed = until(session, Mode.IDLE)
@@ -333,11 +347,9 @@ def test_what_the_guard_keeps_apart_is_told_in_playing() -> None:
     assert "" in seen
     assert any("desk: stopped" in words for words in seen)
     ticks = playing.performance.ticks
-    assert 0 < playing.guarded_ticks == sum(bool(tick.command.guarded) for tick in ticks)
-    assert playing.performance.guarded_ticks == playing.guarded_ticks  # there was no way to go
-    assert f"changed {playing.guarded_ticks} of {len(ticks)} ticks" in in_guards_words(
-        playing.performance
-    )
+    guarded = sum(bool(tick.command.guarded) for tick in ticks)
+    assert 0 < guarded == playing.performance.guarded_ticks  # there was no way to go
+    assert f"changed {guarded} of {len(ticks)} ticks" in in_guards_words(playing.performance)
 
 
 def test_a_motion_whose_beginning_cannot_be_reached_is_refused_in_words(
@@ -345,9 +357,11 @@ def test_a_motion_whose_beginning_cannot_be_reached_is_refused_in_words(
 ) -> None:
     do(session, commands.UseDemonstrator(), commands.Record())
     until(session, Mode.IDLE)
+    do(session, commands.Train(LearnerSettings()))
     into_the_desk = lambda self: lambda _: np.array([-1.2, 1.04, 0.0, 0.1])  # noqa: E731
-    monkeypatch.setattr(Demonstration, "trajectory", into_the_desk)
-    refused = do(session, commands.PlayDemonstration())
+    monkeypatch.setattr(Lesson, "trajectory", into_the_desk)
+    do(session, commands.PlayReproduction())
+    refused = until(session, Mode.IDLE)
     assert refused.message.is_error
     assert "cannot come to where this motion begins" in refused.message.text
     assert "from the desk" in refused.message.text

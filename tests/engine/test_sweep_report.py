@@ -5,8 +5,10 @@ import pytest
 
 from studio.engine.comparison import compare
 from studio.engine.sweep import sweep
+from studio.engine.sweep_charts import path_charts
 from studio.engine.sweep_page import sweep_page
 from studio.engine.sweep_report import as_number, sweep_as_json, sweep_as_text
+from tests.engine.lessons_at_hand import with_wrists
 from tests.engine.sweeps import Ticking, samples
 
 
@@ -68,6 +70,14 @@ def test_names_that_are_markup_are_shown_as_they_are(table):
     first = replace(table.taught.demonstrations[0], name="<b>&mine</b>")
     taught = replace(table.taught, demonstrations=(first, *table.taught.demonstrations[1:]))
     assert "<b>&mine" not in sweep_page(replace(table, taught=taught))
+
+
+def test_a_wrist_that_turned_is_on_the_path_that_was_meant(table):
+    from dataclasses import replace  # noqa: PLC0415
+
+    turned = replace(table, taught=with_wrists(table.taught))
+    assert path_charts(turned) != path_charts(table)
+    assert path_charts(turned).count("<svg") == path_charts(table).count("<svg")
 
 
 def test_missing_numbers_are_dashes():

@@ -11,6 +11,7 @@ from studio.engine.session import Session
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.teaching import LearnerSettings
 from studio.panels import mesh_cache
+from tests.engine.sessions import read
 
 Lesson = dict[str, Snapshot]
 
@@ -47,7 +48,7 @@ def _lived_through(session: Session):
         raise AssertionError(session.snapshot.message.text)
 
     yield "start", session.tick()
-    yield "error", do(commands.UseFile(Path("nowhere.json"), "<b>nowhere</b>.json"))
+    yield "error", read(session, commands.UseFile(Path("nowhere.json"), "<b>nowhere</b>.json"))
     yield "sourced", do(commands.UseDemonstrator())
     yield "recording", do(commands.Record())
     yield "lasso", until(lambda now: now.gate is not None and now.gate.lit == 1)
@@ -57,7 +58,7 @@ def _lived_through(session: Session):
     yield "trained on one", do(commands.Train(LearnerSettings("rbf", 20)))
     do(commands.UseDemonstrator(), commands.Record())
     yield "taught twice", until(lambda now: now.mode is Mode.IDLE)
-    yield "trained", do(commands.Train(LearnerSettings("rbf", 20)), commands.Choose(1))
+    yield "trained", do(commands.Train(LearnerSettings("rbf", 20)), commands.Choose(2))
     yield "playing", do(commands.PlayReproduction())
     yield "halfway", until(lambda now: now.time > now.duration / 2)
     yield "played", until(lambda now: now.mode is Mode.IDLE)

@@ -7,7 +7,11 @@ import pytest
 
 from studio.engine.gate import SEQUENCE, GateStatus
 from studio.engine.skeleton import HandState
-from studio.panels.gate import Light, drawn, view
+from studio.panels.gate import GateView, Light, steps_drawn, view, words_drawn
+
+
+def drawn(shown: GateView) -> str:
+    return steps_drawn(shown) + words_drawn(shown)
 
 
 def lights(now) -> list[Light]:
@@ -41,13 +45,14 @@ def test_the_time_held_counts_for_the_awaited_sign_only(lesson) -> None:
     status = GateStatus(False, 1, "", "", HandState.OPEN, 0.15, 0.3)
     shown = view(replace(lesson["lasso"], gate=status))
     assert [step.share for step in shown.steps] == [1.0, 0.5, 0.0]
-    assert shown.seen == "The hand: open, seen for 0.1 of 0.3 s"
+    assert [step.hold for step in shown.steps] == ["seen", "0.1 of 0.3 s", "later"]
+    assert "0.1 of 0.3 s" in drawn(shown)
 
 
 def test_the_confidence_is_shown_where_a_source_tells_one(lesson) -> None:
     status = GateStatus(False, 0, "", "", HandState.NOT_TRACKED, 0.0, 0.3, confidence=0.42)
     shown = view(replace(lesson["lasso"], gate=status))
-    assert shown.seen == "The hand: not tracked, confidence 0.42"
+    assert shown.seen == "hand: not tracked, confidence 0.42"
     assert shown.seen in drawn(shown)
 
 
@@ -90,7 +95,7 @@ def test_an_open_gate_asks_for_no_signs(lesson) -> None:
 
 def test_each_light_differs_by_its_sign_and_frame(lesson) -> None:
     """What is left in greyscale: every light has a sign of its own, and every step its word."""
-    boxes = re.split(r"<div>", drawn(view(lesson["lasso"])))
+    boxes = re.split(r"<div>", steps_drawn(view(lesson["lasso"])))
     assert [sum(sign in box for box in boxes) for sign in "✔▸○"] == [1, 1, 1]
     for state in SEQUENCE:
         assert f">{state.value.upper()}<" in drawn(view(lesson["lasso"]))
@@ -99,3 +104,27 @@ def test_each_light_differs_by_its_sign_and_frame(lesson) -> None:
 def test_reasons_are_escaped(lesson) -> None:
     status = replace(lesson["lasso"].gate, detail="<script>")
     assert "<script>" not in drawn(view(replace(lesson["lasso"], gate=status)))
+
+
+def test_the_time_left_stands_beside_the_headline_and_is_said_once(lesson) -> None:
+    detail = "left hand unseen for 0.3 s; waiting for Open; 0.5 s left"
+    status = GateStatus(False, 1, "", detail, HandState.UNKNOWN, 0.0, 0.3, left=0.5)
+    shown = view(replace(lesson["lasso"], gate=status))
+    assert (shown.left, shown.reason) == (
+        "0.5 s left",
+        "left hand unseen for 0.3 s; waiting for Open",
+    )
+    assert drawn(shown).count("0.5 s left") == 1
+
+
+def test_what_is_read_from_afar_is_large_enough_on_a_small_screen(lesson) -> None:
+    """Words of gate, state and reason; what hangs on a screen's height is more on a larger one."""
+    shown = drawn(view(lesson["lasso"]))
+    sizes = re.findall(r"font-size:(?:max|clamp)\((\d+)px,3vh", shown)
+    assert sizes == ["24"] * (len(SEQUENCE) + 2)
+
+
+def test_an_armed_hand_that_signs_off_is_timed(lesson) -> None:
+    status = GateStatus(True, 3, "", "armed", HandState.LASSO, 0.2, 0.5, left=0.3)
+    shown = view(replace(lesson["armed"], gate=status, held=""))
+    assert shown.seen == "hand: lasso 0.2 of 0.5 s, confidence 1.00"

@@ -8,6 +8,7 @@ from studio.engine import commands
 from studio.engine.choices import Choices
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode
+from tests.engine.sessions import until_read
 
 
 @pytest.fixture
@@ -23,8 +24,10 @@ def test_a_refused_command_stops_nothing(session: Session, tmp_path: Path) -> No
     session.tick()
     broken = tmp_path / "broken.json"
     broken.write_text("{")
+    session.post(commands.UseFile(broken))
+    now = until_read(session)
+    assert (now.message.is_error, now.mode) == (True, Mode.RECORDING)
     refused = (
-        commands.UseFile(broken),
         commands.Configure(Choices("right", "exact", "sequence")),
         commands.Choose(7),
     )

@@ -2,11 +2,10 @@
 
 import re
 
-from studio.panels.compare import compared
-from studio.panels.learn import learned
+from studio.panels.compare import outcome
+from studio.panels.numbers import learned
 from studio.panels.settings import GATES, MAPPINGS, WRISTS
 from studio.panels.source import described, sample_files
-from studio.panels.teach import listed
 
 
 def cells(html: str) -> list[list[str]]:
@@ -16,47 +15,36 @@ def cells(html: str) -> list[list[str]]:
 
 def test_learning_is_shown_beside_its_floor(lesson) -> None:
     made = lesson["trained"].lesson
-    head, *rows = cells(learned(made))
+    head, *rows = cells(learned(made, {}))
     assert head == ["joint", "MSE [rad²]", "floor [rad²]", "ratio"]
     assert [row[0] for row in rows] == ["left_s0", "left_s1", "left_e0", "left_e1"]
     for row, mse, floor in zip(rows, made.mse, made.floor, strict=True):
         assert row[1:] == [f"{mse:.2e}", f"{floor:.2e}", f"{mse / floor:.4f}"]
-    assert "20 neurons" in learned(made)
+    assert "20 neurons" in learned(made, {})
 
 
 def test_without_a_floor_there_are_words(lesson) -> None:
     made = lesson["trained on one"].lesson
     assert made.floor is None
-    assert all(row[2:] == ["none", "–"] for row in cells(learned(made))[1:])
-    assert made.floor_note in learned(made)
+    assert all(row[2:] == ["none", "–"] for row in cells(learned(made, {}))[1:])
+    assert made.floor_note in learned(made, {})
 
 
 def test_comparison_has_units_and_a_verdict(lesson) -> None:
     now = lesson["played"]
-    html = compared(now.lesson, now.reproduction)
-    table = dict(row for row in cells(html) if len(row) == 2)
+    html = outcome(now)
+    table = {row[0]: row[1:] for row in cells(html)}
     error = now.reproduction.deviation
-    assert table["hand"] == "error [mm]"
-    assert table["mean"] == f"{1000.0 * error.hand_mean:.1f}"
-    assert table["left_s0"] == f"{error.joint_rmse[0] * 180.0 / 3.14159265:.2f}"
+    assert table[""] == ["shown", "A"]
+    assert table["hand, mean [mm]"][1] == f"{1000.0 * error.hand_mean:.1f}"
+    assert table["s0 [deg]"][1] == f"{error.joint_rmse[0] * 180.0 / 3.14159265:.2f}"
     assert "The block is down." in html
 
 
-def test_the_list_tells_what_each_demonstration_is(lesson) -> None:
-    head, first, second = cells(listed(lesson["trained"]))
-    assert head[-2:] == ["s", "block"]
-    entry = lesson["trained"].entries[1]
-    assert second[0] == "▶\N{NO-BREAK SPACE}2"  # chosen, by a sign
-    assert first[0] == "1"
-    assert second[1:3] == [entry.demonstration.name, "left, exact"]
-    assert second[3:] == [f"{entry.demonstration.duration:.1f}", "down"]
-    assert "No demonstrations yet" in listed(lesson["start"])
-
-
 def test_the_source_tells_its_size_and_its_hands(lesson) -> None:
-    assert "No source yet" in described(lesson["start"].source)
+    assert "No source yet" in described(lesson["start"])
     source = lesson["sourced"].source
-    html = described(source)
+    html = described(lesson["sourced"])
     assert f"{source.frames} frames" in html
     assert "with hand states" in html
 

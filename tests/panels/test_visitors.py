@@ -60,7 +60,7 @@ def test_programs_are_let_in_and_doubled_headers_are_not() -> None:
 def server():
     with contextlib.redirect_stdout(io.StringIO()):
         made = viser.ViserServer("127.0.0.1", 0, verbose=False)
-        turn_strangers_away(made)
+        turn_strangers_away(made, "127.0.0.1")
         made.gui.add_button("steers")
         yield made
         made.stop()

@@ -255,7 +255,7 @@ def test_watching_for_long_keeps_nothing(watching: LiveStudio) -> None:
 
 
 def test_a_recording_without_an_end_is_ended(studio: LiveStudio, monkeypatch) -> None:
-    monkeypatch.setattr("studio.engine.activity.LONGEST_RECORDING", 2.0)
+    monkeypatch.setattr("studio.engine.tape.LONGEST_RECORDING", 2.0)
     studio.do(commands.UseLive(), commands.Record())
     with publisher(studio.url) as sensor:
         studio.arm(sensor)

@@ -1,0 +1,155 @@
+"""What can be asked of a session: small frozen messages, put into its inbox from any thread."""
+
+from studio.engine.commands.act import (
+    ActCommand,
+    Calibrate,
+    Configure,
+    ForgetCalibration,
+    LetGo,
+    Record,
+    RecordAgain,
+    Stop,
+    Watch,
+)
+from studio.engine.commands.compare import (
+    CompareCommand,
+    ForgetKept,
+    KeepToCompare,
+    PlaceBlock,
+    PlaceStart,
+    PutBlockBack,
+    ShowLeg,
+)
+from studio.engine.commands.export import (
+    CancelExport,
+    Export,
+    ExportCommand,
+    OpenSession,
+)
+from studio.engine.commands.learn import (
+    CancelWork,
+    ChooseLearner,
+    Guess,
+    LearnCommand,
+    ResumeCurve,
+    RevealBlocks,
+    Train,
+)
+from studio.engine.commands.source import (
+    CancelReading,
+    DragElbow,
+    DragHand,
+    FollowBody,
+    PuppetCommand,
+    PuppetHome,
+    ReleaseElbow,
+    Sign,
+    SourceCommand,
+    UseDemonstrator,
+    UseFile,
+    UseLive,
+    UsePuppet,
+)
+from studio.engine.commands.teach import (
+    AddFrom,
+    BeginTake,
+    Choose,
+    DeleteForGood,
+    EndTake,
+    Include,
+    ListCommand,
+    OpenRecording,
+    Remove,
+    Rename,
+    Restore,
+    TakeCommand,
+    TeachCommand,
+    Trim,
+)
+from studio.engine.commands.timeline import (
+    PlayDemonstration,
+    PlayReproduction,
+    Scrub,
+    SetLoop,
+    SetSpeed,
+    StepBy,
+    TimelineCommand,
+    TogglePlay,
+)
+
+Command = (
+    ActCommand
+    | CompareCommand
+    | ExportCommand
+    | LearnCommand
+    | SourceCommand
+    | TakeCommand
+    | TeachCommand
+    | TimelineCommand
+)
+
+__all__ = [
+    "ActCommand",
+    "AddFrom",
+    "BeginTake",
+    "Calibrate",
+    "CancelExport",
+    "CancelReading",
+    "CancelWork",
+    "Choose",
+    "ChooseLearner",
+    "Command",
+    "CompareCommand",
+    "Configure",
+    "DeleteForGood",
+    "DragElbow",
+    "DragHand",
+    "EndTake",
+    "Export",
+    "ExportCommand",
+    "FollowBody",
+    "ForgetCalibration",
+    "ForgetKept",
+    "Guess",
+    "Include",
+    "KeepToCompare",
+    "LearnCommand",
+    "LetGo",
+    "ListCommand",
+    "OpenRecording",
+    "OpenSession",
+    "PlaceBlock",
+    "PlaceStart",
+    "PlayDemonstration",
+    "PlayReproduction",
+    "PuppetCommand",
+    "PuppetHome",
+    "PutBlockBack",
+    "Record",
+    "RecordAgain",
+    "ReleaseElbow",
+    "Remove",
+    "Rename",
+    "Restore",
+    "ResumeCurve",
+    "RevealBlocks",
+    "Scrub",
+    "SetLoop",
+    "SetSpeed",
+    "ShowLeg",
+    "Sign",
+    "SourceCommand",
+    "StepBy",
+    "Stop",
+    "TakeCommand",
+    "TeachCommand",
+    "TimelineCommand",
+    "TogglePlay",
+    "Train",
+    "Trim",
+    "UseDemonstrator",
+    "UseFile",
+    "UseLive",
+    "UsePuppet",
+    "Watch",
+]
