@@ -38,7 +38,7 @@ EXPORT = "5 Export"
 # On a projector of 1024 pixels what floats would cover the evidence; viser cannot say "at most".
 _NARROW = f"""<style>@media (max-width: {2 * STEPS_WIDTH + STATE_WIDTH + 80}px) {{
 [data-floating-window] {{
-  width: calc(100vw - {STEPS_WIDTH + STATE_WIDTH + 20}px) !important; min-width: 300px;
+  width: calc(100vw - {STEPS_WIDTH + STATE_WIDTH + 20}px) !important; min-width: 240px;
   left: {STEPS_WIDTH + 10}px !important; }}
 }}</style>"""
 

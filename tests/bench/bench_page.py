@@ -309,6 +309,7 @@ def pictures(browser: Browser) -> Iterator[Row]:
         for make in (minimal, light):
             server = make(camera)
             page = browser.new_page(viewport=SIZE)
+            page.set_default_timeout(1000.0 * PATIENCE)
             page.goto(f"http://127.0.0.1:{server.get_port()}")
             pair.append(Image.open(io.BytesIO(settled(page))).convert("RGB"))
             page.close()
@@ -348,11 +349,12 @@ def main() -> None:
         serve(asked.serve)
         return
     rows = list(frames())
-    print(*rows, sep="\n", flush=True)
     with sync_playwright() as playwright:
         program = next(path for path in map(shutil.which, NAMES) if path)
         browser = playwright.chromium.launch(executable_path=program, args=FLAGS)
-        rows = [*weights(browser, asked.visits), *rows, *pictures(browser)]
+        rows = [*weights(browser, asked.visits), *rows]
+        print(*rows, sep="\n", flush=True)
+        rows += pictures(browser)
         browser.close()
     table = "| | wanted | minimal script | studio | ratio |\n|---|---|---|---|---|\n"
     for row in rows:
