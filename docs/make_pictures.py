@@ -102,10 +102,15 @@ def show_teaching(studio: Stepped, page: Page) -> None:
     """Show the armed gate, and how Baxter follows."""
     begin(studio, page, "Watch only")
     studio.until(lambda now: now.gate is not None and now.gate.armed)
-    studio.until(lambda now: now.world.block_down)
+    studio.until(lambda now: now.world.block_down and is_sure(now))
     take_both(page, "teach")
     press(page, "Stop")
     studio.until(lambda now: now.mode is Mode.IDLE)
+
+
+def is_sure(now: Snapshot) -> bool:
+    """Tell whether the gate is armed and nothing about the hand is in doubt."""
+    return now.gate is not None and now.gate.armed and now.gate.left is None
 
 
 def show_learning(studio: Stepped, page: Page) -> None:
@@ -146,15 +151,17 @@ def make_film(studio: Stepped, page: Page) -> None:
     page.wait_for_timeout(SETTLE)
     film.append((seen(page), STILL))
     pictures, lasting = zip(*film, strict=True)
+    packed = io.BytesIO()  # so that a run that ends early leaves the old one
     pictures[0].save(
-        PICTURES / "studio.webp",
+        packed,
+        "WEBP",
         save_all=True,
         append_images=pictures[1:],
         duration=list(lasting),
         loop=0,
         quality=QUALITY,
-        method=6,
     )
+    (PICTURES / "studio.webp").write_bytes(packed.getvalue())
     print(f"studio.webp: {len(film)} pictures, {sum(lasting) / 1000:.0f} s")
 
 
