@@ -23,6 +23,7 @@ from studio.panels.uploads import Uploads
 from studio.panels.visitors import turn_strangers_away
 
 FRAME = 1.0 / 30.0  # [s] between two pictures of the scene
+HEAD_START = 1.0  # [s] for the meshes, three times what they need when they lie in the cache
 PANEL_EVERY = 3  # pictures between two of the panels: 10 Hz
 
 _NO_MESHES = (
@@ -67,6 +68,9 @@ class App:
         self._guide = Guide(self._send, now)
         self._control = Control(self._server, self._by_hand, now)
         post = self._control.post
+        # A browser hears of everything in the order in which it was made: of the robot first.
+        self.scene = SceneView(self._server, detail, post)
+        self.scene.wait(HEAD_START)
         self._handles = Handles(self._server.scene, post)
         self._arcs = ArcsView(self._server.scene)
         self.page = Page(
@@ -78,7 +82,6 @@ class App:
             self._arcs,
             self._deliver,
         )
-        self.scene = SceneView(self._server, detail, post)
         self._closing = threading.Event()
         self._drawing = threading.Thread(target=self._draw_until_closed, name="drawing")
         self._drawing.start()

@@ -4,11 +4,11 @@ import viser
 
 from studio.engine import commands
 from studio.engine.calibration import in_words
-from studio.engine.snapshot import Mode, Snapshot
+from studio.engine.snapshot import Snapshot
 from studio.panels import markup
 from studio.panels.inputs import Post
 from studio.panels.palette import BRAND, css
-from studio.panels.readiness import why_not_calibrate
+from studio.panels.readiness import why_not_calibrate, why_not_forget_calibration
 
 
 class CalibrationPanel:
@@ -29,9 +29,10 @@ class CalibrationPanel:
         """Show a snapshot."""
         refusal = why_not_calibrate(now)
         self._calibrate.disabled = bool(refusal)
-        self._state.content = described(now) + markup.reasons([refusal])
-        self._forget.visible = now.choices.calibration is not None
-        self._forget.disabled = now.mode is not Mode.IDLE
+        is_calibrated = now.choices.calibration is not None
+        why_not_forget = why_not_forget_calibration(now) if is_calibrated else ""
+        self._state.content = described(now) + markup.reasons([refusal, why_not_forget])
+        self._forget.visible, self._forget.disabled = is_calibrated, bool(why_not_forget)
 
 
 def described(now: Snapshot) -> str:

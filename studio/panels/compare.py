@@ -15,7 +15,7 @@ from studio.engine.snapshot import Snapshot
 from studio.panels import markup
 from studio.panels.chooser import DemonstrationChooser
 from studio.panels.inputs import Post
-from studio.panels.readiness import FOLLOWING, why_not_play, why_not_replay
+from studio.panels.readiness import why_not_keep, why_not_play, why_not_put_back, why_not_replay
 
 
 class ComparePanel:
@@ -66,15 +66,15 @@ class BlockPart:
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
-        moved = now.compare.moved
-        self._back.disabled = not moved or now.mode in FOLLOWING
+        moved, why_not = now.compare.moved, why_not_put_back(now)
+        self._back.disabled = bool(why_not)
         words = (
             "<b>The block was moved.</b> A network that sees only time cannot know: play and see."
             if moved
             else "<b>Drag the yellow block</b> over the desk, then let Baxter do it alone: will it "
             "hit?"
         )
-        self._words.content = markup.block(words)
+        self._words.content = markup.block(words) + markup.note(why_not)
 
 
 class SecondPart:
@@ -94,9 +94,8 @@ class SecondPart:
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
-        lesson, kept = now.lesson, now.compare.kept
-        self._forget.visible = kept is not None
-        self._keep.disabled = lesson is None or lesson is kept
+        self._forget.visible = now.compare.kept is not None
+        self._keep.disabled = bool(why_not_keep(now))
         self._words.content = second_words(now)
 
 
@@ -117,13 +116,12 @@ class FieldPart:
 
 def second_words(now: Snapshot) -> str:
     """Return what is kept as B, and what to do with it, as HTML."""
-    lesson, kept = now.lesson, now.compare.kept
+    lesson, kept, why_not = now.lesson, now.compare.kept, why_not_keep(now)
     if kept is None:
-        note = "" if lesson is not None else "Two robots: train first, then keep it as B."
-        return markup.note(note) if note else ""
+        return markup.note(why_not)
     name = f"<b>B: {markup.text(named(kept))}.</b> "
-    if lesson is None or lesson is kept:
-        return markup.block(f"{name}Learn something else in 3 Learn: that is A.")
+    if lesson is None or why_not:
+        return markup.block(name + markup.text(why_not))
     return markup.block(f"{name}A: {markup.text(named(lesson))}. Both play on one timeline.")
 
 

@@ -20,7 +20,7 @@ from studio.panels.uploads import Uploads, shown_name
 ARCHIVE = "studio-export.zip"  # of several files; a session's own archive never is in there
 Deliver = Callable[[str, bytes], None]  # a file's name and content, to whoever asked for it
 
-_LABELS = {
+LABELS = {
     "replay": "Replay page",
     "video": "Video",
     "csv": "Tables (CSV)",
@@ -32,7 +32,7 @@ _LABELS = {
 }
 # Two boxes a row; where a later viser lays them out in another way, one a row is left.
 _BOXES = ", ".join(
-    "div:has(> .studio-exports)" + " + div" * place for place in range(1, len(_LABELS) + 2)
+    "div:has(> .studio-exports)" + " + div" * place for place in range(1, len(LABELS) + 2)
 )
 _STYLE = f"""<style>
 :is({_BOXES}) {{ display: inline-block; width: 50%; padding-bottom: .1em !important; }}
@@ -51,7 +51,7 @@ class ExportPanel:
         gui.add_html(_STYLE)
         self._boxes = {
             name: gui.add_checkbox(label, name == "zip", hint=_sentence(_ALL[name].words))
-            for name, label in _LABELS.items()
+            for name, label in LABELS.items()
         }
         self._anonymous = gui.add_checkbox(
             "Strip names",
@@ -77,7 +77,7 @@ class ExportPanel:
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
         status = now.export
-        reasons = {name: why_not_export(now, name) for name in _LABELS}
+        reasons = {name: why_not_export(now, name) for name in LABELS}
         for name, box in self._boxes.items():
             box.disabled = bool(reasons[name])
         chosen = self._chosen(now)
@@ -138,7 +138,7 @@ def _grouped(reasons: dict[str, str]) -> list[str]:
     """Return each reason once, with what it holds up."""
     words = []
     for reason in dict.fromkeys(filter(None, reasons.values())):
-        held = [_LABELS[name] for name, why in reasons.items() if why == reason]
+        held = [LABELS[name] for name, why in reasons.items() if why == reason]
         words.append(reason if len(held) == len(reasons) else f"{', '.join(held)}: {reason}")
     return words
 
@@ -146,7 +146,7 @@ def _grouped(reasons: dict[str, str]) -> list[str]:
 def _notes(now: Snapshot, refusals: list[str]) -> str:
     status = now.export
     if status.running:
-        labels = ", ".join(_LABELS[name] for name in status.running)
+        labels = ", ".join(LABELS[name] for name in status.running)
         words = f"{labels}: {status.share:.0%}. The studio goes on meanwhile; a film takes longest."
         return markup.note(words)
     return markup.reasons(refusals)

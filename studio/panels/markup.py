@@ -31,8 +31,8 @@ def block(content: str, style: str = "") -> str:
 
 
 def note(words: str) -> str:
-    """Return a quiet remark."""
-    return block(text(words), "font-size:.85em;color:var(--mantine-color-dimmed)")
+    """Return a quiet remark; nothing for no words."""
+    return block(text(words), "font-size:.85em;color:var(--mantine-color-dimmed)") if words else ""
 
 
 def command(words: str) -> str:

@@ -99,6 +99,7 @@ class _Signs:
                 hotkey=key,
                 modifier=None if side == "left" else "shift",
                 disabled=True,
+                description=_WHY_NOT_SIGN[side],
             )
             for state, key in KEYS.items()
         ]
@@ -112,9 +113,16 @@ class _Signs:
         self._bar.visible = self._style.visible = is_shown
         self._style.content = _styled(self._side, state)
         for command in self._commands:
-            command.disabled = not is_shown
+            if command.disabled == is_shown:
+                command.disabled = not is_shown
+                command.description = None if is_shown else _WHY_NOT_SIGN[self._side]
 
 
+_WHY_NOT_SIGN: dict[Side, str] = {
+    "left": "Only the puppet signs by keys: take it in 1 Source first.",
+    "right": "Only the puppet signs by keys, and only a gripper asks for its right hand: take both "
+    "in 1 Source first.",
+}
 WHO_NEEDS_IT = markup.note("No sensor, no camera: drag its hand, sign with L, O, C, and teach.")
 HOW_TO_DRAG = markup.note(
     "Drag the blue balls in the 3D view. Shift keeps a ball at its height. A click lets an elbow "

@@ -32,7 +32,12 @@ def why_not_calibrate(now: Snapshot) -> str:
         return "Baxter is playing: press Stop first."
     if now.mode is Mode.CALIBRATING:
         return ""  # the progress says enough; pressed again, it begins anew
-    return "Somebody teaches: press Stop first." if _follows(now) else ""
+    return _why_not_while_taught(now)
+
+
+def why_not_forget_calibration(now: Snapshot) -> str:
+    """Return why the calibration has to stay."""
+    return CALIBRATING if now.mode is Mode.CALIBRATING else _why_not_while_taught(now)
 
 
 def why_not_teach(now: Snapshot) -> str:
@@ -61,14 +66,27 @@ def why_not_play(now: Snapshot) -> str:
     """Return why Baxter cannot do it alone."""
     if now.lesson is None:
         return "Nothing is learned yet: press Train in 3 Learn."
-    return "Somebody teaches: press Stop first." if _follows(now) else ""
+    return _why_not_while_taught(now)
 
 
 def why_not_replay(now: Snapshot) -> str:
     """Return why no demonstration can be replayed."""
     if not now.entries:
         return "No demonstration is listed: record one in 2 Teach."
-    return "Somebody teaches: press Stop first." if _follows(now) else ""
+    return _why_not_while_taught(now)
+
+
+def why_not_put_back(now: Snapshot) -> str:
+    """Return why the block cannot be put back."""
+    return _why_not_while_taught(now) if now.compare.moved else "The block stands in its place."
+
+
+def why_not_keep(now: Snapshot) -> str:
+    """Return why what is learned cannot be kept to stand beside something else."""
+    if now.lesson is None:
+        return "Two robots: train first, in 3 Learn, then keep it as B."
+    is_kept = now.lesson is now.compare.kept
+    return "Learn something else in 3 Learn: that is A." if is_kept else ""
 
 
 def why_not_record_again(now: Snapshot) -> str:
@@ -131,6 +149,10 @@ def described(entry: Entry) -> str:
 
 def _follows(now: Snapshot) -> bool:
     return now.mode in FOLLOWING
+
+
+def _why_not_while_taught(now: Snapshot) -> str:
+    return "Somebody teaches: press Stop first." if _follows(now) else ""
 
 
 def _waits_for_stream(now: Snapshot) -> bool:

@@ -53,9 +53,9 @@ class SceneView:
         """Whether Baxter is drawn in simple shapes, since its meshes are missing."""
         return self._robot is not None and not self._robot.has_meshes
 
-    def wait(self) -> None:
-        """Wait until the meshes are there."""
-        self._loading.join()
+    def wait(self, seconds: float | None = None) -> None:
+        """Wait until the meshes are there, or for so long [s]."""
+        self._loading.join(seconds)
         self._second.wait()
 
     def draw(self, now: Snapshot) -> None:

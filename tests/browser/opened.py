@@ -86,7 +86,7 @@ class NoScene:
     def draw(self, _: Snapshot) -> None:
         pass
 
-    def wait(self) -> None:
+    def wait(self, _: float | None = None) -> None:
         pass
 
 

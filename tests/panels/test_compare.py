@@ -44,7 +44,7 @@ def test_what_cannot_be_done_yet_says_why(lesson) -> None:
     assert gui["Keep this one to compare"].disabled
     assert "press Train in 3 Learn" in gui.words
     assert "record one in 2 Teach" in gui.words
-    assert "train first, then keep it as B" in gui.words
+    assert "then keep it as B" in gui.words
 
 
 def test_one_table_has_all_that_was_measured(lesson) -> None:
