@@ -89,6 +89,8 @@ class Comparing:
                 return self._reproduction(learning, listed)
             case commands.PlayDemonstration(number):
                 return DemonstrationFilm(listed.entry(number or listed.chosen).take)
+            case commands.TogglePlay() if _is_outdated(activity, learning):
+                return self._reproduction(learning, listed)
         if isinstance(activity, Show):
             activity.steer(command)
         elif not isinstance(command, commands.TogglePlay):
@@ -226,6 +228,14 @@ def _told(solo: Solo, end: float) -> str:
     words = down_or_not(solo.at(end)[0].block_down)
     kept = "" if solo.performance is None else in_guards_words(solo.performance)
     return f"{words} {kept}" if kept else words
+
+
+def _is_outdated(activity: Activity, learning: Learning) -> bool:
+    """Tell whether what lies still on the timeline is what a network did before the newest one."""
+    if not isinstance(activity, Show) or activity.is_playing:
+        return False
+    film, newest = activity.film, learning.lesson
+    return isinstance(film, LessonFilm) and newest is not None and film.lesson is not newest
 
 
 def _ghost(listed: Listed) -> Take | None:

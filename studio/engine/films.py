@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+from studio.engine.compare_status import named
 from studio.engine.export.material import Take
 from studio.engine.moment import Moment, demonstration_at, performance_at, recording_at, skeleton_at
 from studio.engine.perform import Perform
@@ -150,7 +151,8 @@ class LessonFilm:
     def __init__(self, solos: Sequence[Solo], ghost: Take | None) -> None:
         self.solos, self.ghost = tuple(solos), ghost
         one = len(self.solos) == 1
-        self.title = "Baxter alone" if one else "Baxter alone, A beside B"
+        name = named(self.lesson)
+        self.title = f"Baxter alone: {name}" if one else f"A: {name}, beside B"
         self.words = "Baxter does it alone." if one else "Both robots do it alone, A and B."
         self.motion = self.lesson.taught.duration
         self.duration = max(solo.lesson.taught.duration for solo in self.solos) + SETTLE

@@ -55,6 +55,20 @@ def played(session: Session) -> Snapshot:
     raise AssertionError(now.message.text)
 
 
+def test_play_shows_the_newest_network_not_the_one_that_lies_on_the_timeline(
+    taught: Session,
+) -> None:
+    played(taught)
+    do(taught, commands.Train(LearnerSettings("rbf", 3)))
+    assert taught.snapshot.lesson.settings.neurons == 3
+    assert "30 neurons" in taught.snapshot.compare.timeline.title
+    now = do(taught, commands.TogglePlay())
+    assert "3 neurons" in now.compare.timeline.title
+    assert "30 neurons" not in now.compare.timeline.title
+    paused = do(taught, commands.TogglePlay())
+    assert paused.compare.timeline.title == now.compare.timeline.title
+
+
 def test_playing_ahead_of_the_playhead_comes_to_what_one_go_comes_to(taught: Session) -> None:
     begun = do(taught, commands.PlayReproduction())
     assert (begun.mode, begun.reproduction, begun.alone) == (Mode.PLAYING, None, True)
