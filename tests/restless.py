@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from studio.engine.choices import Choices
 from studio.engine.commands import Command
 from studio.engine.errors import StudioError
 from studio.engine.mcap_file import read_recording
+from studio.engine.session import Session
 from studio.engine.skeleton import HandState
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.teaching import LearnerSettings
@@ -194,6 +196,20 @@ class Restless:
         return of[int(self._random.integers(len(of)))]
 
 
+class Watched(Session):
+    """A session whose every command is looked after: several of one tick can delete."""
+
+    def __init__(self, kept: "Kept", **settings: Any) -> None:
+        self._kept = kept
+        super().__init__(kept.folder, **settings)
+
+    def _take_command(self, command: Command) -> None:
+        try:
+            super()._take_command(command)
+        finally:
+            self._kept.may_go(self._collection.status().goes_too)
+
+
 @dataclass
 class Kept:
     """Every recording that was made in a folder: a second name for each, which nobody deletes.
@@ -207,9 +223,12 @@ class Kept:
     _waiting: tuple[dict[int, Path], Snapshot | None] = ({}, None)  # to be sure they are made
     _may_go: set[str] = field(default_factory=set)  # names of files that somebody deleted
 
+    def may_go(self, name: str) -> None:
+        """Note the name of a file of which people were told that it goes with what they delete."""
+        self._may_go.add(name)
+
     def look(self, now: Snapshot) -> None:
-        """Note what is there by now, and what may go."""
-        self._may_go.add(now.collection.goes_too)
+        """Note what is there by now."""
         waiting, then = self._waiting
         if now is then:
             return

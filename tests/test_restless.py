@@ -10,12 +10,11 @@ import pytest
 
 from studio.engine.pace import Pace
 from studio.engine.resources import samples_folder
-from studio.engine.session import Session
 from studio.engine.snapshot import Mode
 from studio.panels import app as app_module
 from studio.panels.app import App
 from tests.browser.opened import NoScene
-from tests.restless import Kept, Restless
+from tests.restless import Kept, Restless, Watched
 
 MINUTE = 60 * 30  # ticks, as fast as they go
 SEED = 2
@@ -31,7 +30,8 @@ def test_a_minute_of_anything(
     folder.mkdir()
     safe.mkdir()
     before = threading.active_count()
-    session, kept, seen, told = Session(folder), Kept(folder, safe), set(), set()
+    kept, seen, told = Kept(folder, safe), set(), set()
+    session = Watched(kept)
     files = [path for path in samples_folder().iterdir() if path.suffix in (".mcap", ".jsonl")]
     asks = Restless(SEED, lambda: session.snapshot, sorted(files), patient=False).asks()
     ticks = 0
@@ -67,7 +67,7 @@ def test_what_is_lost_is_noticed(tmp_path: Path) -> None:
         (folder / f"{number}.mcap").write_bytes(content)
     kept = Kept(folder, safe)
     for _ in range(2):
-        kept.look(SimpleNamespace(mode=Mode.IDLE, collection=SimpleNamespace(goes_too="")))
+        kept.look(SimpleNamespace(mode=Mode.IDLE))
     (folder / "2.mcap").unlink()
     lost = kept.lost()
     assert kept.made == 3

@@ -37,9 +37,13 @@ class PushAndReturn:
         """Learn joints (n, D) [rad] from demonstrations one after another, X (n,) their times."""
         taught = split_where_time_restarts(X, Y)
         legs = legs_of(taught)
-        self.fields = tuple(
-            StableField(n_translations=self.neurons, bound=self.bound).fit(leg) for leg in legs
-        )
+        try:
+            self.fields = tuple(
+                StableField(n_translations=self.neurons, bound=self.bound).fit(leg) for leg in legs
+            )
+        except ValueError as error:
+            cure = "leave out the demonstration that differs from the others, or take rbf"
+            raise StudioError(f"field: {error}; {cure}") from error
         step = _duration(taught) / STEPS
         paths = [np.mean([rows[:1] for _, rows in taught], axis=0)]
         for field in self.fields:

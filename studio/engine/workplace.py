@@ -88,6 +88,9 @@ class InTicks:
         except StudioError as error:
             self._task = None
             return failed(self._handle, task, tuple(self._points), Trouble(str(error)))
+        except Exception:
+            self._task = None  # it is over, whoever hears of the fault
+            raise
         points = tuple(self._points)
         if len(points) < task.size:
             return Progress(self._handle, task, points)

@@ -37,7 +37,7 @@ from studio.engine.work import Work
 from studio.panels.app import App
 from tests.browser.conftest import FLAGS, NAMES
 from tests.browser.opened import PLAIN, SMALL
-from tests.restless import Kept, Restless
+from tests.restless import Kept, Restless, Watched
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "soak.md"
@@ -57,15 +57,14 @@ def serve(folder: Path, seed: int) -> None:
     safe, made = folder / "safe", folder / "recordings"
     safe.mkdir()
     made.mkdir()
-    live, ending = LiveSource(now), threading.Event()
+    live, ending, kept = LiveSource(now), threading.Event(), Kept(made, safe)
     with (
         Listener(live, Address("127.0.0.1", 0)) as listener,
-        LiveLoop(lambda: Session(made, live=live, work=Work(now))) as loop,
+        LiveLoop(lambda: Watched(kept, live=live, work=Work(now))) as loop,
         App(loop, port=0, detail=PLAIN) as app,
     ):
         app.scene.wait()
         print(app.url, listener.address.url, flush=True)
-        kept = Kept(made, safe)
         asking = threading.Thread(target=ask, args=(loop.session, seed, kept, ending))
         asking.start()
         sys.stdin.read()

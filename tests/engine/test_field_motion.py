@@ -101,6 +101,13 @@ def test_a_motion_that_does_not_come_back_is_one_field(taught):
     assert len(motion.fields) == 1
 
 
+def test_demonstrations_that_end_in_different_places_are_refused_in_words(taught):
+    elsewhere = taught.rows[0] + np.linspace(0.0, 0.3, len(taught.rows[0]))[:, np.newaxis]
+    mixed = np.stack([taught.rows[1], elsewhere])
+    with pytest.raises(StudioError, match=r"from the goal.*leave out the demonstration"):
+        PushAndReturn(5).fit(*stacked(mixed))
+
+
 def test_demonstrations_of_two_kinds_are_told_apart(taught):
     stays = taught.rows[0].copy()
     turn = from_start(stays).argmax()

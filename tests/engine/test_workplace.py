@@ -48,3 +48,4 @@ def test_a_fault_of_the_studio_is_not_hidden() -> None:
     work.poll()
     with pytest.raises(ZeroDivisionError):
         work.poll()
+    assert (work.task, work.poll()) == (None, None)
