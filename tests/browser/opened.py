@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
@@ -12,6 +13,7 @@ from studio.engine.live.source import LiveSource
 from studio.engine.session import Session
 from studio.engine.snapshot import Snapshot
 from studio.panels import app as app_module
+from studio.panels import scene as scene_module
 from studio.panels.app import App
 from tests.browser.conftest import PATIENCE
 
@@ -76,7 +78,7 @@ class Studio:
 
 
 class NoScene:
-    """In the place of the robot, where a test is about buttons: drawing it takes all the time."""
+    """In the place of the 3D view, where a test is about buttons: drawing it takes all the time."""
 
     lacks_meshes = False
 
@@ -90,22 +92,40 @@ class NoScene:
         pass
 
 
+class NoRobot:
+    """In the place of the robot, or of its ghost, where a test is about what stands around it."""
+
+    has_meshes = True
+
+    def __init__(self, *_: object) -> None:
+        pass
+
+    def draw(self, *_: object) -> None:
+        pass
+
+
 @contextmanager
 def studio_on(
     page: Page,
     recordings: Path,
     speed: float,
     live: LiveSource | None = None,
-    has_robot: bool = False,
+    drawn: Literal["nothing", "furniture", "all"] = "nothing",
 ) -> Iterator[Studio]:
-    """Run a studio whose time passes ``speed`` times as fast, and open its page."""
+    """Run a studio whose time passes ``speed`` times as fast, and open its page.
+
+    Of the 3D view only so much is drawn as a test needs.
+    """
     build = lambda: Session(recordings, live=live)  # noqa: E731 - built on the loop's thread
     with (
         pytest.MonkeyPatch.context() as patch,
         LiveLoop(build, speed) as loop,
     ):
-        if not has_robot:
+        if drawn == "nothing":
             patch.setattr(app_module, "SceneView", NoScene)
+        elif drawn == "furniture":
+            patch.setattr(scene_module, "RobotView", NoRobot)
+            patch.setattr(scene_module, "GhostView", NoRobot)
         with App(loop, port=0, detail=PLAIN) as app:
             opened = Studio(loop, app, page)
             opened.open()

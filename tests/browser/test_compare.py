@@ -25,7 +25,7 @@ LONGER = 1500.0  # [ms] between two moves of a hesitating hand
 @pytest.fixture
 def studio(page: Page, tmp_path: Path) -> Iterator[Studio]:
     page.set_viewport_size({"width": 1366, "height": 768})
-    with studio_on(page, tmp_path / "recordings", 1.0, has_robot=True) as opened:
+    with studio_on(page, tmp_path / "recordings", 1.0, drawn="furniture") as opened:
         opened.loop.session._listed.add(takes(2))
         opened.open_step("4 Compare")
         yield opened

@@ -54,7 +54,7 @@ def test_a_replay_opens_without_a_network_and_moves(page: Page, tmp_path: Path) 
     path.write_bytes(replay_page(material.lesson, reproduction, ghost, Job(tmp_path), PLAIN))
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
-    page.set_viewport_size({"width": 480, "height": 400})
+    page.set_viewport_size({"width": 300, "height": 280})
     page.context.set_offline(True)
     page.goto(path.as_uri())
     page.locator("canvas").first.wait_for()
@@ -83,7 +83,7 @@ def standing_still(page: Page, time: str) -> np.ndarray:
     seen = [red_parts(page)]
 
     def stand_still() -> bool:
-        page.wait_for_timeout(1000)
+        page.wait_for_timeout(500)
         seen.append(red_parts(page))
         if len(seen) < 6 or seen[-1].sum() < VISIBLE:
             return False

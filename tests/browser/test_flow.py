@@ -73,7 +73,7 @@ def walk(studio: Studio) -> None:
 
 def test_all_of_it_on_a_laptop_and_every_export_opens_again(page: Page, tmp_path: Path) -> None:
     page.set_viewport_size(dict(zip(("width", "height"), LAPTOP, strict=True)))
-    with studio_on(page, tmp_path / "recordings", FAST, has_robot=True) as studio:
+    with studio_on(page, tmp_path / "recordings", FAST) as studio:
         light_or_dark(studio, is_dark=False)
         walk(studio)
         studio.open_step("5 Export")

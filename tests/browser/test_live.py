@@ -18,7 +18,7 @@ def test_a_stream_is_taken_and_followed(page: Page, tmp_path: Path) -> None:
     live, ending = LiveSource(clock.now), threading.Event()
     with (
         Listener(live, Address("127.0.0.1", 0)) as listener,
-        studio_on(page, tmp_path, 1.0, live, has_robot=True) as studio,
+        studio_on(page, tmp_path, 1.0, live) as studio,
     ):
 
         def send() -> None:

@@ -1,6 +1,5 @@
 """The puppet under a real pointer: the hand goes where it is dragged, and Baxter is taught."""
 
-import socket
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,13 +12,11 @@ from playwright.sync_api import Page, expect
 from studio.engine import commands
 from studio.engine.clock import LiveLoop
 from studio.engine.placement import Placement
-from studio.engine.session import Session
 from studio.engine.skeleton import FloatArray, Joint
 from studio.panels.app import App
 from tests.browser.conftest import PATIENCE
+from tests.browser.opened import studio_on
 from tests.browser.pixels import pixel
-
-expect.set_options(timeout=PATIENCE)
 
 
 class Puppet:
@@ -48,16 +45,11 @@ class Puppet:
 
 @pytest.fixture
 def puppet(page: Page, tmp_path: Path) -> Iterator[Puppet]:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    build = lambda: Session(tmp_path / "recordings")  # noqa: E731 - built on the loop's thread
-    with LiveLoop(build) as loop, App(loop, port=port, detail=0.02) as app:
-        page.set_viewport_size({"width": 1366, "height": 768})  # the hand is behind no panel
-        page.goto(app.url)
-        page.get_by_role("button", name="Be the puppet", exact=True).click()
-        expect(page.get_by_text("you, with the puppet").first).to_be_visible()
-        yield Puppet(loop, app, page)
+    page.set_viewport_size({"width": 1366, "height": 768})  # the hand is behind no panel
+    with studio_on(page, tmp_path / "recordings", 1.0, drawn="furniture") as studio:
+        studio.press("Be the puppet")
+        studio.shows("you, with the puppet")
+        yield Puppet(studio.loop, studio.app, page)
 
 
 def test_the_hand_goes_where_it_is_dragged_and_keys_sign(puppet: Puppet) -> None:

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
@@ -144,6 +146,25 @@ def test_the_tour_is_begun_and_left(studio: Studio) -> None:
     studio.shows("You took over")
     studio.press("Close")
     expect(studio.page.get_by_text("You took over")).to_be_hidden()
+
+
+def test_baxter_stands_on_the_page(page: Page, tmp_path: Path) -> None:
+    with studio_on(page, tmp_path / "recordings", 1.0, drawn="all") as studio:
+        red = 0
+        for _ in range(60):  # Baxter is the only thing that is red
+            red = count_red(page.screenshot())
+            if red > 500:
+                break
+            page.wait_for_timeout(500)
+        assert red > 500
+        assert not studio.app.scene.lacks_meshes
+
+
+def count_red(png: bytes) -> int:
+    """Return how many pixels left of the panels are a robot's red."""
+    pixels = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR).astype(int)
+    blue, green, red = np.moveaxis(pixels[:, 380:980], -1, 0)
+    return int((red - np.maximum(blue, green) > 60).sum())
 
 
 def test_a_browser_without_webgl_is_told_why(studio: Studio, page: Page) -> None:

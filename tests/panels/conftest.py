@@ -1,5 +1,6 @@
 """Snapshots of one lesson from beginning to end, as a real session gives them."""
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,8 +19,10 @@ Lesson = dict[str, Snapshot]
 
 @pytest.fixture(scope="session", autouse=True)
 def mesh_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Light meshes are made once for all tests, and not in the user's own cache."""
-    folder = tmp_path_factory.mktemp("meshes")
+    """Light meshes are made once for all tests of all workers, and not in the user's own cache."""
+    workers = os.environ.get("PYTEST_XDIST_WORKER_COUNT")
+    own = tmp_path_factory.getbasetemp()
+    folder = (own.parent if workers else own) / "meshes"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(mesh_cache, "cache_folder", lambda: folder)
         yield

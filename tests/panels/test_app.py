@@ -13,6 +13,8 @@ from studio.engine.clock import LiveLoop
 from studio.engine.session import Session
 from studio.panels.app import App
 
+PLAIN = 0.02  # [m] the robot's detail: making it light takes the longer the finer
+
 
 @pytest.fixture
 def loop(tmp_path: Path, request: pytest.FixtureRequest):
@@ -27,7 +29,7 @@ def free_port() -> int:
 
 
 def test_the_page_answers_on_loopback_only(loop, capfd: pytest.CaptureFixture[str]) -> None:
-    with App(loop, port=free_port()) as app:
+    with App(loop, port=free_port(), detail=PLAIN) as app:
         assert app.url.startswith("http://127.0.0.1:")
         with urllib.request.urlopen(app.url, timeout=20) as answer:
             assert answer.status == 200
@@ -40,7 +42,7 @@ def test_a_busy_port_is_left_alone(loop) -> None:
         busy.bind(("127.0.0.1", free_port()))
         busy.listen()
         taken = busy.getsockname()[1]
-        with App(loop, port=taken) as app:
+        with App(loop, port=taken, detail=PLAIN) as app:
             port = int(app.url.rsplit(":", 1)[1])
             assert port != taken
             with urllib.request.urlopen(app.url, timeout=20) as answer:
@@ -60,7 +62,7 @@ def test_all_is_drawn_from_teaching_to_playing_without_a_browser(loop) -> None:
             assert time.monotonic() < deadline, f"never {what}: {session.snapshot.message.text}"
             time.sleep(0.01)
 
-    with App(loop, port=free_port()) as app:
+    with App(loop, port=free_port(), detail=PLAIN) as app:
         app.scene.wait()
         session.post(commands.UseDemonstrator())
         session.post(commands.Record())

@@ -5,9 +5,10 @@ import pytest
 
 from studio.engine.export import Job, Material, StoppedError
 from studio.engine.resources import notice_path
-from studio.panels.meshes import COARSE
 from studio.panels.replay_page import REPLAY, replay_page
 from tests.engine.export.materials import done, listed
+
+PLAIN = 0.02  # [m] the robot's detail
 
 
 def short(material: Material) -> Material:
@@ -19,7 +20,7 @@ def short(material: Material) -> Material:
 
 def page(material: Material, job: Job) -> bytes:
     ghost = material.takes[0].demonstration
-    return replay_page(material.lesson, material.reproduction, ghost, job, COARSE)
+    return replay_page(material.lesson, material.reproduction, ghost, job, PLAIN)
 
 
 def test_a_page_is_one_file_that_loads_nothing(tmp_path: Path) -> None:

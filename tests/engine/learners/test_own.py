@@ -17,7 +17,7 @@ def test_all_learners_have_the_same_budget_and_unlike_settings():
 
 @pytest.mark.parametrize("kind", OWN, ids=lambda kind: kind.name)
 def test_every_setting_of_our_own_learners_answers(kind):
-    rows = samples().rows
+    rows = samples().rows[:2]  # of fields the slower, the more there are
     for settings in kind.settings:
         curve = kind.model(settings).fit(*stacked(rows)).predict(INPUTS)
         assert curve.shape == (142, 4)
