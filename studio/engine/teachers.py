@@ -118,6 +118,15 @@ class LiveTeacher:
             self.skeleton = None
         return now
 
+    def bodies(self) -> tuple[tuple[tuple[str, None], ...], str | None]:
+        """Return who is in sight, as in `WhoStatus.bodies`, and who of them is followed."""
+        now = self._live.status()
+        return tuple((body, None) for body in now.bodies), now.followed
+
+    def follow(self, body: str | None) -> None:
+        """Follow one of those in sight; raise StudioError where it is not there."""
+        self._live.follow(body)
+
     def frames(self) -> Iterator[Skeleton | None]:
         """Yield what each tick sees."""
         return live_frames(self._live)

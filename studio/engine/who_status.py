@@ -28,5 +28,6 @@ class WhoStatus:
     reading: ReadingStatus | None = None  # the file that is being read
     puppet: PuppetStatus | None = None  # None unless it is the source
     strip: tuple[HandRun, ...] = ()  # what the hand has shown; nothing while nobody is watched
-    bodies: tuple[tuple[str, int], ...] = ()  # in the chosen file, and in how many frames of it
-    body: str | None = None  # the one that was chosen; None: whoever is nearest
+    # Who is there, and in how many frames of the chosen file; None: a live stream has no end.
+    bodies: tuple[tuple[str, int | None], ...] = ()
+    body: str | None = None  # the one that was chosen, live the one followed; None: the nearest

@@ -54,7 +54,7 @@ class WhoTeaches:
         self.puppet = PuppetTeacher()
         self._choices = 0  # made so far, of anything but files
         self._file: asked.UseFile | None = None  # that is the source
-        self._bodies: tuple[tuple[str, int], ...] = ()  # in it
+        self._bodies: tuple[tuple[str, int | None], ...] = ()  # in it
         self._reading, self._strip = Reading(), HandStrip()
 
     def take(self, command: asked.SourceCommand) -> str:
@@ -150,12 +150,15 @@ class WhoTeaches:
 
     def shown(self, activity: Activity) -> WhoStatus:
         """Return what people see of who teaches, beside the source itself."""
+        bodies, body = self._bodies, None if self._file is None else self._file.body
+        if self._live is not None and self.chosen is self._live:
+            bodies, body = self._live.bodies()
         return WhoStatus(
             reading=self._reading.status,
             puppet=_shown(self.puppet) if self.chosen is self.puppet else None,
             strip=self._strip.runs if isinstance(activity, Follow) else (),
-            bodies=self._bodies,
-            body=None if self._file is None else self._file.body,
+            bodies=bodies,
+            body=body,
         )
 
     def close(self) -> None:
@@ -180,8 +183,13 @@ class WhoTeaches:
             case asked.UseFile():
                 return self._read(command)
             case asked.FollowBody(body):
+                if self._live is not None and self.chosen is self._live:
+                    self._live.follow(body)
+                    return "Following whom you chose." if body else "Following who is nearest."
                 if self._file is None:
-                    raise StudioError("Take a file first: only there you choose whom to follow")
+                    raise StudioError(
+                        "Take a file or a live stream first: there you choose whom to follow"
+                    )
                 return self._read(replace(self._file, body=body))
             case asked.CancelReading():
                 return self._reading.cancel()

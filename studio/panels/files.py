@@ -65,8 +65,8 @@ class FilePanel:
         self._drawn = state
         self._ids = body_labels(now.who.bodies)
         self._body.options = tuple(self._ids)
-        chosen = next(label for label, each in self._ids.items() if each == now.who.body)
-        show_value(self._body, chosen)
+        chosen = (label for label, each in self._ids.items() if each == now.who.body)
+        show_value(self._body, next(chosen, NEAREST))  # who is followed may have left just now
 
     def _receive(self, event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
         file = event.target.value
@@ -86,9 +86,9 @@ def described(reading: ReadingStatus) -> str:
     return markup.block(f"Reading <b>{markup.text(reading.name)}</b>{share}{more}")
 
 
-def body_labels(bodies: tuple[tuple[str, int], ...]) -> dict[str, str | None]:
+def body_labels(bodies: tuple[tuple[str, int | None], ...]) -> dict[str, str | None]:
     """Return what the dropdown shows for each choice of a body, and its id."""
     labels: dict[str, str | None] = {NEAREST: None}
     for body, frames in bodies:
-        labels[f"body {body} ({frames} frames)"] = body
+        labels[f"body {body}" if frames is None else f"body {body} ({frames} frames)"] = body
     return labels

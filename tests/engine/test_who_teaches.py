@@ -16,9 +16,10 @@ from studio.engine.live.source import LiveSource
 from studio.engine.skeleton import SIDES, HandState, Joint
 from studio.engine.sources import write_skeletons
 from studio.engine.sources.demonstrator import demonstrate
+from studio.engine.sources.family import Frame
 from studio.engine.sources.recording import from_skeletons
 from studio.engine.who_teaches import NamedRecording, WhoTeaches
-from tests.engine.people import stand
+from tests.engine.people import person, stand
 from tests.engine.sessions import PATIENCE
 
 SAMPLES = Path(__file__).resolve().parents[2] / "recordings" / "samples"
@@ -76,6 +77,22 @@ def test_a_file_is_known_by_the_users_name_and_says_if_it_has_no_signs(
     assert who.status().name == "my take.json"
 
 
+def test_whom_to_follow_is_chosen_in_a_live_stream_too(holding: Hold) -> None:
+    live = LiveSource(lambda: 0.0)
+    who = WhoTeaches(0, live)
+    with pytest.raises(StudioError, match="Take a file or a live stream first"):
+        who.take(commands.FollowBody("9"))
+    live.drive("publisher 1", "studio jsonl")
+    live.put(Frame(0.0, (person(body_id="7"), person(body_id="9"))), 0.0, True)
+    who.take(commands.UseLive())
+    shown = who.shown(holding)
+    assert (shown.bodies, shown.body) == ((("7", None), ("9", None)), "7")
+    who.take(commands.FollowBody("9"))
+    assert who.shown(holding).body == "9"
+    with pytest.raises(StudioError, match="Body 12 is not in sight"):
+        who.take(commands.FollowBody("12"))
+
+
 def test_live_streams_can_be_chosen_where_there_are_any() -> None:
     with pytest.raises(StudioError, match="listener"):
         WhoTeaches(0, None).use_live()
@@ -117,7 +134,7 @@ def test_of_several_bodies_the_nearest_is_followed_until_another_is_chosen(
     assert who.chosen.skeleton.body_id == "near"
     who.use_demonstrator()
     assert who.shown(holding).bodies == ()
-    with pytest.raises(StudioError, match="Take a file first"):
+    with pytest.raises(StudioError, match="Take a file or a live stream first"):
         who.take(commands.FollowBody("near"))
 
 

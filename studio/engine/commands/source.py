@@ -31,7 +31,7 @@ class UseFile:
 
 @dataclass(frozen=True)
 class FollowBody:
-    """Follow another body of the chosen file, by its id; None: whoever is nearest."""
+    """Follow another body of the chosen file or stream, by its id; None: whoever is nearest."""
 
     body: str | None
 

@@ -9,6 +9,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from studio.engine.errors import StudioError
 from studio.engine.live.latency import Delays, LatencyChain
 from studio.engine.live.status import Counts, LiveStatus
 from studio.engine.skeleton import SIDES, HandState, Skeleton
@@ -17,6 +18,7 @@ from studio.engine.sources.following import Following, choose_body
 
 RESTARTED = 1.0  # [s]; stamps that run back by more are those of a clock begun anew
 _RATE_OVER = 30  # frames
+_IN_SIGHT = 1.0  # [s] for which somebody who is missing from frames still is among the bodies
 _SILENT = 2.0  # [s] without a frame, after which the rate is nothing
 _ENOUGH = 90  # frames of somebody, after which a stream without hand states tells none
 
@@ -56,6 +58,7 @@ class LiveSource:
         self.fresh = threading.Event()  # set while no tick has taken the newest frame
         self._stamp: float | None = None  # of the newest frame [s]
         self._following: Following | None = None
+        self._seen: dict[str, float] = {}  # when each body was in a frame last [s]
         self._arrivals: deque[float] = deque(maxlen=_RATE_OVER)
         self._bodies, self._hands = 0, False  # of this stream: how many, any state
         self._on_its_way: tuple[float, float] | None = None  # arrived, taken [s]
@@ -126,6 +129,22 @@ class LiveSource:
             self._on_its_way = self._newest.arrival, now
             return self._newest
 
+    def follow(self, body: str | None) -> None:
+        """Follow one of those in sight from now on, for as long as it is there; None: the nearest.
+
+        Raises
+        ------
+        StudioError
+            Where nobody of that id is in sight.
+        """
+        with self._lock:
+            if body is None:
+                self._following = None
+            elif body in self._in_sight(self.now()):
+                self._following = Following(body, self._seen[body])
+            else:
+                raise StudioError(f"Body {body} is not in sight any more: choose another one")
+
     def command_given(self, limiting: float | None) -> None:
         """Take note that a tick has given its command, and how far the limiter is behind [s]."""
         with self._lock:
@@ -146,6 +165,8 @@ class LiveSource:
                 rate=self._rate(now),
                 age=None if self._newest is None else now - self._newest.arrival,
                 tells_hands=self._hands or self._bodies < _ENOUGH,
+                bodies=self._in_sight(now),
+                followed=None if self._following is None else self._following.body_id,
                 counts=Counts(**self._counts),
                 latency=LatencyChain(
                     self._transit.spread(above_least=True),
@@ -164,6 +185,7 @@ class LiveSource:
         self._status = replace(self._status, stream=self._status.stream + 1)
         self._stamp = self._following = None
         self._bodies, self._hands = 0, False
+        self._seen.clear()
         self._arrivals.clear()
         self._transit.clear()
 
@@ -174,6 +196,8 @@ class LiveSource:
 
     def _show(self, frame: Frame, arrival: float) -> None:
         """Let the followed person in the frame be what the next tick takes."""
+        self._seen = {body: at for body, at in self._seen.items() if arrival - at <= _IN_SIGHT}
+        self._seen |= {skeleton.body_id: arrival for skeleton in frame.bodies}
         # The wait for a missing person goes by the time here, not by what a publisher says.
         self._following, skeleton = choose_body(self._following, Frame(arrival, frame.bodies))
         if skeleton is None and frame.bodies:
@@ -192,6 +216,9 @@ class LiveSource:
         states = (skeleton.hand(side).state for side in SIDES)
         self._bodies += 1
         self._hands = self._hands or any(state is not HandState.UNKNOWN for state in states)
+
+    def _in_sight(self, now: float) -> tuple[str, ...]:
+        return tuple(sorted(body for body, at in self._seen.items() if now - at <= _IN_SIGHT))
 
     def _rate(self, now: float) -> float:
         if len(self._arrivals) < 2 or now - self._arrivals[-1] > _SILENT:

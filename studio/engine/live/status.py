@@ -36,6 +36,8 @@ class LiveStatus:
     rate: float = 0.0  # [Hz] of the frames accepted of late
     age: float | None = None  # [s] of the newest frame
     tells_hands: bool = True  # whether it tells hand states, as far as was seen yet
+    bodies: tuple[str, ...] = ()  # ids of all who were in sight of late
+    followed: str | None = None  # the one of them whose frames are taken
     counts: Counts = Counts()
     latency: LatencyChain = _UNMEASURED
 

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from studio.engine.errors import StudioError
 from studio.engine.live.source import RESTARTED, LiveSource
 from studio.engine.skeleton import Hand, HandState
 from studio.engine.sources.family import Frame
@@ -133,6 +134,30 @@ def test_every_message_is_accounted_for(events) -> None:
     live.take()  # nothing is pending any more
     received, parts = accounted(live)
     assert received == parts
+
+
+def test_whoever_is_chosen_is_followed_while_there(live: LiveSource, clock: Clock) -> None:
+    def sees(at: float, *ids: str) -> str | None:
+        clock.time = at
+        live.put(frame(at, *ids), at, True)
+        taken = live.take()
+        return None if taken is None or taken.skeleton is None else taken.skeleton.body_id
+
+    assert sees(100.0, "7", "9") == "1:7"
+    assert live.status().bodies == ("7", "9")
+    live.follow("9")
+    assert live.status().followed == "9"
+    assert sees(100.1, "7", "9") == "1:9"
+    assert sees(100.1 + PATIENCE, "7") is None  # waited for
+    assert sees(100.2 + PATIENCE, "7") == "1:7"  # who is there goes on
+    live.follow("9")  # out of sight for less than a second
+    assert sees(100.3 + PATIENCE, "7", "9") == "1:9"
+    live.follow(None)
+    assert sees(100.4 + PATIENCE, "7", "9") == "1:7"
+    sees(102.0, "7")
+    assert live.status().bodies == ("7",)
+    with pytest.raises(StudioError, match="not in sight"):
+        live.follow("9")
 
 
 def test_rate_and_age_tell_whether_frames_come(live: LiveSource, clock: Clock) -> None:
