@@ -7,6 +7,7 @@ speeds.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,11 @@ class Servo:
 
     top_speed: FloatArray
 
+    @cached_property
+    def _reach(self) -> FloatArray:
+        """How far a target that does not jump moves in a tick (N,) [rad]."""
+        return self.top_speed * CONTROL_PERIOD * (1 + _ROUNDING)
+
     def start(self, positions: FloatArray) -> Setpoint:
         """Return the setpoint of a robot at rest at ``positions`` (N,) [rad]."""
         return Setpoint(positions, np.zeros_like(positions), np.zeros(len(positions), dtype=bool))
@@ -41,8 +47,9 @@ class Servo:
         """Return the next setpoint on the way to ``targets`` (N,) [rad]."""
         way = targets - before.positions
         distance = np.abs(way)
-        reach = self.top_speed * CONTROL_PERIOD
-        catching_up = before.catching_up | (distance > reach * (1 + _ROUNDING))
+        catching_up = before.catching_up | (distance > self._reach)
+        if not catching_up.any():  # what follows comes to the same, and takes three times as long
+            return Setpoint(targets, way / CONTROL_PERIOD, catching_up)
         gaining = np.maximum(np.sign(way) * before.velocities, 0) + ACCELERATION * CONTROL_PERIOD
         braking = np.sqrt(2 * ACCELERATION * distance)
         speed = np.minimum(np.minimum(gaining, braking), self.top_speed)

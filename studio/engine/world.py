@@ -11,9 +11,8 @@ to do over all poses: 22 N m at most.
 """
 
 import math
-import tempfile
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Self
 
 import numpy as np
@@ -21,21 +20,15 @@ from numpy.typing import NDArray
 
 from studio.engine.arms import sides_of
 from studio.engine.camera import Camera
-from studio.engine.errors import FileError, StudioError
-from studio.engine.robot import (
-    BASE_HEIGHT,
-    CONTROL_RATE,
-    JOINT_NAMES,
-    load_robot,
-    urdf_path,
-    urdf_with_meshes,
-    urdf_without_visuals,
-)
+from studio.engine.errors import StudioError
+from studio.engine.judge import NOBODY, Judge, Sight
+from studio.engine.robot import CONTROL_RATE, load_robot
 from studio.engine.scene import Block, Desk, Scene, Triple
 from studio.engine.servo import Servo
 from studio.engine.silence import STDERR, STDOUT, silenced
-from studio.engine.skeleton import SIDES
-from studio.engine.world_state import BlockWatch, WorldState
+from studio.engine.skeleton import Side
+from studio.engine.world_robot import AROUND_MEETS, DESK_MEETS, POSITION_GAIN, WorldRobot
+from studio.engine.world_state import WorldState
 
 with silenced(STDOUT), silenced(STDERR):
     import pybullet
@@ -44,12 +37,8 @@ __all__ = ["Block", "Desk", "Scene", "World", "WorldState"]
 
 SUBSTEPS = 8  # physics steps in a control tick
 GRAVITY = 9.81  # [m/s²]
-SOLVER_ITERATIONS = 30  # pybullet's usual 50 cost a fifth more, and the task ends the same
-S1_SPRING = 38.0  # [N m] at s1 = 0
+SOLVER_ITERATIONS = 30  # leaves joints 0.1 mrad from where more would; 10 leave them 2 mrad
 
-# The share of a joint's error that its motor takes away in one physics step: half of pybullet's
-# usual gain. A stiffer motor brakes harder than the effort limits allow, and overshoots.
-POSITION_GAIN = 0.05
 # The share of a target's own velocity that its motor is told beside the position. With it a joint
 # that follows steadily is at its target when the tick ends: on the average over the tick it is
 # half a tick's way short, and the gain makes of that what is missing here to 1.
@@ -57,6 +46,7 @@ FEED_FORWARD = 1.0 - POSITION_GAIN * SUBSTEPS / 2
 # Of pictures: the floor, which is left out as it costs a third of the time, the desk, the task's
 # block and others; each red, green, blue, alpha.
 COLORS = ((1, 1, 1, 0), (0.74, 0.63, 0.5, 1), (0.96, 0.7, 0.16, 1), (0.5, 0.59, 0.66, 1))
+ZONE_COLOR, PLATE = (0.35, 0.68, 0.52, 1), 0.001  # a zone's, and half its thickness [m]
 LIGHT = {"lightDirection": (2.0, 1.0, 4.0), "lightAmbientCoeff": 0.7, "lightDiffuseCoeff": 0.5}
 RENDERER = {"renderer": pybullet.ER_TINY_RENDERER, "flags": pybullet.ER_NO_SEGMENTATION_MASK}
 
@@ -98,17 +88,19 @@ class World:
         self._targets = self._robot.retargeted(at_zero, joint_positions or {})  # [rad]
         self._servo = Servo(self._robot.limits.velocity)
         self._setpoint = self._servo.start(self._targets)
-        self._watch, self._ticks = BlockWatch(), 0
+        self._judge = Judge.of(self.scene)
+        self._judged, self._ticks = self._judge.start(), 0
         self._closed = False
         with silenced(STDOUT):
             self._client: int = pybullet.connect(pybullet.DIRECT)
         try:
             self._furnish()
-            self._place_robot()
+            self._baxter = WorldRobot(self._client, self._robot, looks)
+            self._baxter.put(self._targets.tolist())
         except BaseException:
             self.close()
             raise
-        self._state = self._observe(touched=False)
+        self._state = self._observe([NOBODY] * len(self._judge.watched))
 
     @property
     def state(self) -> WorldState:
@@ -131,31 +123,25 @@ class World:
     def step(self) -> WorldState:
         """Let one control tick of 1/30 s pass and return what it led to."""
         self._require_owner()
-        self._drive()
-        springs = [-S1_SPRING * math.cos(self._state.joint_positions[i]) for i in self._s1]
-        motors = [self._motors[i] for i in self._s1]
-        touched = self._watch.touched
+        self._setpoint = self._servo.step(self._setpoint, self._targets)
+        self._baxter.drive(self._setpoint, FEED_FORWARD)
+        springs = self._baxter.springs_at(self._state.joint_positions)
+        asked = [i for i in range(len(self._judge.watched)) if self._judge.asks(self._judged, i)]
+        touching = [NOBODY] * len(self._judge.watched)
         for _ in range(SUBSTEPS):
-            pybullet.setJointMotorControlArray(
-                self._body,
-                motors,
-                pybullet.TORQUE_CONTROL,  # beside the position motor, for one physics step
-                forces=springs,
-                physicsClientId=self._client,
-            )
+            self._baxter.press(springs)
             pybullet.stepSimulation(physicsClientId=self._client)
-            touched = touched or self._arm_touches_block()
+            for i in asked:
+                touching[i] |= self._arms_that_touch(self._blocks[self._judge.watched[i]])
         self._ticks += 1
-        self._state = self._observe(touched)
+        self._state = self._observe(touching)
         return self._state
 
     def show(self, state: WorldState) -> None:
         """Put joints and blocks where a state has them, without physics: for pictures of it."""
         self._require_owner()
         client = {"physicsClientId": self._client}
-        joints = [*state.joint_positions.tolist(), *state.fingers.tolist()]
-        for motor, angle in zip(self._motors, joints, strict=True):
-            pybullet.resetJointState(self._body, motor, angle, **client)
+        self._baxter.put([*state.joint_positions.tolist(), *state.fingers.tolist()])
         for block, pose in zip(self._blocks, state.block_poses.tolist(), strict=True):
             pybullet.resetBasePositionAndOrientation(block, pose[:3], pose[3:], **client)
 
@@ -194,9 +180,11 @@ class World:
         pybullet.setTimeStep(1.0 / (CONTROL_RATE * SUBSTEPS), **client)
         pybullet.setPhysicsEngineParameter(numSolverIterations=SOLVER_ITERATIONS, **client)
         floor = pybullet.createCollisionShape(pybullet.GEOM_PLANE, **client)
-        pybullet.createMultiBody(0.0, floor, **client)
+        ground: int = pybullet.createMultiBody(0.0, floor, **client)
+        pybullet.setCollisionFilterGroupMask(ground, -1, *AROUND_MEETS, **client)
         desk = self.scene.placed_desk
-        self._box(desk.size, desk.position, 0.0, desk.friction)  # no mass: it does not move
+        top = self._box(desk.size, desk.position, 0.0, desk.friction)  # no mass: it does not move
+        pybullet.setCollisionFilterGroupMask(top, -1, *DESK_MEETS, **client)
         self._blocks = [
             self._box(block.size, block.position, block.mass, block.friction)
             for block in self.scene.placed_blocks
@@ -204,6 +192,11 @@ class World:
         for body in range(2 + len(self._blocks)) if self._looks else ():
             color = COLORS[min(body, len(COLORS) - 1)]
             pybullet.changeVisualShape(body, -1, rgbaColor=color, **client)
+        for zone in self.scene.placed_zones if self._looks else ():
+            half, at = (*(side / 2 for side in zone.size), PLATE), (*zone.center, desk.top + PLATE)
+            look = {"halfExtents": half, "rgbaColor": ZONE_COLOR}
+            plate = pybullet.createVisualShape(pybullet.GEOM_BOX, **look, **client)
+            pybullet.createMultiBody(0.0, -1, plate, at, **client)  # nothing collides with it
 
     def _box(self, size: Triple, position: Triple, mass: float, friction: float) -> int:
         client = {"physicsClientId": self._client}
@@ -216,82 +209,22 @@ class World:
         )
         return body
 
-    def _place_robot(self) -> None:
-        """Load the robot and put its joints where they start."""
+    def _arms_that_touch(self, block: int) -> frozenset[Side]:
+        """Return the taught arms that touch a block, by pybullet's number of it."""
+        taught = sides_of(self.scene.arms)
+        return frozenset(side for side in taught if self._baxter.touches(side, block))
+
+    def _observe(self, touching: Sequence[frozenset[Side]]) -> WorldState:
         client = {"physicsClientId": self._client}
-        fingers = len(self._robot.joint_names) > len(JOINT_NAMES)
-        self._body = _load_robot(self._client, fingers, self._looks)
-        found = [
-            pybullet.getJointInfo(self._body, index, **client)
-            for index in range(pybullet.getNumJoints(self._body, **client))
-        ]
-        motors = {info[1].decode(): info[0] for info in found}  # pybullet's order is its own
-        self._motors = [motors[name] for name in self._robot.joint_names]
-        self._s1 = [self._robot.joint_index(f"{side}_s1") for side in SIDES]
-        prefixes = tuple(f"{side}_" for side in sides_of(self.scene.arms))
-        self._arm_links = {info[0] for info in found if info[12].decode().startswith(prefixes)}
-        # A last bound, which pybullet has for the whole robot only: its fastest joint's.
-        arms = [name for side in SIDES for name in self._robot.arm_joints(side)]
-        fastest = float(self._robot.limits_of(arms).velocity.max())
-        pybullet.changeDynamics(self._body, -1, maxJointVelocity=fastest, **client)
-        for motor, angle in zip(self._motors, self._targets.tolist(), strict=True):
-            pybullet.resetJointState(self._body, motor, angle, **client)
-
-    def _drive(self) -> None:
-        """Tell the motors where to be when this tick ends."""
-        self._setpoint = self._servo.step(self._setpoint, self._targets)
-        velocities = FEED_FORWARD * self._setpoint.velocities
-        limits = self._robot.limits
-        for index, motor in enumerate(self._motors):
-            # Not setJointMotorControlArray: that one ignores velocity limits.
-            pybullet.setJointMotorControl2(
-                self._body,
-                motor,
-                pybullet.POSITION_CONTROL,
-                targetPosition=self._setpoint.positions[index],
-                targetVelocity=velocities[index],
-                positionGain=POSITION_GAIN,
-                force=limits.effort[index],
-                maxVelocity=limits.velocity[index],
-                physicsClientId=self._client,
-            )
-
-    def _arm_touches_block(self) -> bool:
-        contacts = pybullet.getContactPoints(
-            bodyA=self._body, bodyB=self._blocks[0], physicsClientId=self._client
-        )
-        # [3] is the robot's link, [9] the normal force: pybullet also lists what is merely near.
-        return any(contact[3] in self._arm_links and contact[9] > 0.0 for contact in contacts)
-
-    def _observe(self, touched: bool) -> WorldState:
-        client = {"physicsClientId": self._client}
-        joints = pybullet.getJointStates(self._body, self._motors, **client)
         poses = np.array(
             [
-                np.concatenate(pybullet.getBasePositionAndOrientation(block, **client))
+                sum(pybullet.getBasePositionAndOrientation(block, **client), start=())
                 for block in self._blocks
             ]
         )
-        velocity, spin = pybullet.getBaseVelocity(self._blocks[0], **client)
-        speeds = math.hypot(*velocity), math.hypot(*spin)
-        self._watch = self._watch.step(touched, poses[0], *speeds)
-        moving = np.array([joint[:2] for joint in joints])
-        return WorldState.of(self._ticks / CONTROL_RATE, moving, poses, self._watch)
-
-
-def _load_robot(client: int, fingers: bool = False, looks: bool = False) -> int:
-    """Load the robot, without its looks unless asked: pybullet reads meshes for 2 s."""
-    with tempfile.NamedTemporaryFile(suffix=".urdf") as file, silenced(STDOUT):
-        file.write(urdf_with_meshes(fingers) if looks else urdf_without_visuals(fingers))
-        file.flush()
-        try:
-            body: int = pybullet.loadURDF(
-                file.name,
-                basePosition=(0.0, 0.0, BASE_HEIGHT),
-                useFixedBase=True,
-                flags=pybullet.URDF_USE_INERTIA_FROM_FILE,  # else it goes by the shapes
-                physicsClientId=client,
-            )
-        except pybullet.error as error:
-            raise FileError(f"{urdf_path()}: pybullet cannot load it; reinstall") from error
-    return body
+        sights = []
+        for number, arms in zip(self._judge.watched, touching, strict=True):
+            velocity, spin = pybullet.getBaseVelocity(self._blocks[number], **client)
+            sights.append(Sight(poses[number], math.hypot(*velocity), math.hypot(*spin), arms))
+        self._judged, verdict = self._judge.step(self._judged, sights)
+        return WorldState.of(self._ticks / CONTROL_RATE, self._baxter.measured(), poses, verdict)

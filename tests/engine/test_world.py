@@ -54,7 +54,7 @@ def test_every_pose_inside_the_limits_can_be_held() -> None:
 
 
 def test_without_its_spring_a_stretched_arm_would_sag(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("studio.engine.world.S1_SPRING", 0.0)
+    monkeypatch.setattr("studio.engine.world_robot.S1_SPRING", 0.0)
     with World(EMPTY) as world:
         for _ in range(60):
             state = world.step()
