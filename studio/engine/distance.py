@@ -43,8 +43,8 @@ def segment_to_box(start: FloatArray, way: FloatArray, half: FloatArray) -> Floa
     """
     moves = np.where(np.abs(way) > _STILL, way, 1.0)  # a moment too many does no harm
     moments = np.empty((*start.shape[:-1], 8))
-    moments[..., :3] = (-half - start) / moves
-    moments[..., 3:6] = (half - start) / moves
+    np.divide(-half - start, moves, out=moments[..., :3])
+    np.divide(half - start, moves, out=moments[..., 3:6])
     moments[..., 6:] = _ENDS
     moments = np.sort(_share(moments), axis=-1)
     points = start[..., None, :] + moments[..., None] * way[..., None, :]

@@ -11,7 +11,9 @@ from studio.engine.skeleton import Joint, Skeleton, Tracking
 
 SHORTEST = 0.2  # [s]; frames that follow faster are allowed as much as this
 FASTEST = 2.5  # [m/s] of the trunk: 0.5 m within `SHORTEST`
-_TRUNK = (Joint.SPINE_BASE, Joint.SPINE_MID, Joint.SPINE_SHOULDER)  # the first that both know
+# The first that both know. Plain numbers, as numpy is slow to look enumerations up.
+_TRUNK = tuple(map(int, (Joint.SPINE_BASE, Joint.SPINE_MID, Joint.SPINE_SHOULDER)))
+_NOT_TRACKED = int(Tracking.NOT_TRACKED)
 
 
 def is_another(before: Skeleton, now: Skeleton) -> bool:
@@ -20,7 +22,7 @@ def is_another(before: Skeleton, now: Skeleton) -> bool:
         return True
     allowed = FASTEST * max(now.time - before.time, SHORTEST)
     for joint in _TRUNK:
-        if Tracking.NOT_TRACKED not in (before.tracking[joint], now.tracking[joint]):
+        if _NOT_TRACKED not in (before.tracking.item(joint), now.tracking.item(joint)):
             a, b = before.positions[joint].tolist(), now.positions[joint].tolist()
             return not math.dist(a, b) <= allowed  # nor is NaN or infinity
     return False

@@ -21,6 +21,40 @@ from studio.engine.urdf import UrdfJoint
 
 
 @dataclass(frozen=True, eq=False)
+class Moving:
+    """The M links that some angles move while all others rest; build it by `Kinematics.moving`.
+
+    Its poses are those of `Kinematics.stacked` to the last bit, for less than half of the time.
+    """
+
+    joints: list[int]  # (M,) of the kinematics, rising; each carries one of the links
+    carriers: list[int]  # (M,) which of the links each hangs on; after them come those at rest
+    still: FloatArray  # (M, 4, 4) T_root_carrier where all angles rest
+    steps: FloatArray  # (M, 4, 4) T_parent_child of all, where all angles rest
+    turning: list[int]  # (S,) which of them the angles turn
+    columns: list[int]  # (S,) by which of the angles given to `poses`
+    tables: FloatArray  # (4, S, 4, 4) constant, sine, cosine and slide parts of those
+    slides: bool  # whether any of those does
+
+    def poses(self, angles: FloatArray) -> FloatArray:
+        """Return T_root_link (M, ..., 4, 4) for the angles that move them (..., D) [rad]."""
+        turned = angles[..., self.columns, None, None]
+        constant, sine, cosine, slide = self.tables
+        swing = sine * np.sin(turned) + cosine * np.cos(turned)
+        if self.slides:
+            swing = swing + slide * turned
+        swing += constant
+        steps = list(self.steps)
+        for place, link in enumerate(self.turning):
+            steps[link] = swing[..., place, :, :]
+        poses = np.empty((len(steps), *angles.shape[:-1], 4, 4))
+        on = [*poses, *self.still]
+        for link, carrier in enumerate(self.carriers):
+            np.matmul(on[carrier], steps[link], out=on[link])
+        return poses
+
+
+@dataclass(frozen=True, eq=False)
 class Kinematics:
     """The joints in an order in which each parent link comes before its children."""
 
@@ -84,15 +118,31 @@ class Kinematics:
         values = self._checked(angles)
         poses = np.empty((*values.shape[:-1], 1 + len(self.children), 4, 4))
         poses[..., 0, :, :] = np.eye(4)
-        self.restack(poses, values, list(range(len(self.children))))
+        steps = self._transforms(values, list(range(len(self.children))))
+        for joint, child in enumerate(self.children):
+            carrier = poses[..., 1 + self.parents[child], :, :]
+            np.matmul(carrier, steps[..., joint, :, :], out=poses[..., 1 + joint, :, :])
         return poses
 
-    def restack(self, poses: FloatArray, angles: FloatArray, joints: list[int]) -> None:
-        """Bring the links that ``joints`` (rising) carry up to date in ``poses``, see `stacked`."""
-        steps = self._transforms(angles, joints)
-        for step, joint in enumerate(joints):
-            carrier = poses[..., 1 + self.parents[self.children[joint]], :, :]
-            np.matmul(carrier, steps[..., step, :, :], out=poses[..., 1 + joint, :, :])
+    def moving(self, rest: FloatArray, columns: Sequence[int]) -> Moving:
+        """Return the links that the angles in ``columns`` (D,) move while all rest (N,) [rad]."""
+        joints = self.below(columns)
+        at_rest, parents = self.stacked(rest), [self.parents[self.children[j]] for j in joints]
+        turning = [j for j in joints if self.columns[j] in columns and self._turns(j)]
+        slide = np.zeros_like(self.sine) if self.slide is None else self.slide
+        return Moving(
+            joints=joints,
+            carriers=[
+                joints.index(parent) if parent in joints else len(joints) + link
+                for link, parent in enumerate(parents)
+            ],
+            still=at_rest[[1 + parent for parent in parents]],
+            steps=self._transforms(rest, joints),
+            turning=[joints.index(joint) for joint in turning],
+            columns=[list(columns).index(self.columns[joint]) for joint in turning],
+            tables=np.array([self.constant, self.sine, self.cosine, slide])[:, turning],
+            slides=bool(slide[turning].any()),
+        )
 
     def below(self, moved: Collection[int]) -> list[int]:
         """Return the joints (rising) whose links the angles in the columns ``moved`` move."""
@@ -102,6 +152,10 @@ class Kinematics:
             if turns or self.parents[child] in found:
                 found.append(joint)
         return found
+
+    def _turns(self, joint: int) -> bool:
+        slides = self.slide is not None and bool(self.slide[joint].any())
+        return slides or bool(self.sine[joint].any())
 
     def _transforms(self, angles: FloatArray, joints: list[int]) -> FloatArray:
         """Return T_parent_child (..., len(joints), 4, 4) of these joints."""

@@ -61,8 +61,15 @@ class Limits:
             raise StudioError(f"a command needs {self.lower.size} finite angles, not {wanted!r}")
         if not elapsed > 0.0:
             raise StudioError(f"a command needs a time step above zero, not {elapsed!r} s")
-        inside = np.clip(target, self.lower, self.upper)
+        inside = _clipped(target, self.lower, self.upper)
         furthest = self.velocity * elapsed * _WITHIN
         # The sum may round past a position limit that the previous command sat on: clip once more.
-        moved = np.clip(sent + np.clip(inside - sent, -furthest, furthest), self.lower, self.upper)
-        return Command(moved, inside != target, np.abs(inside - sent) > furthest)
+        way = inside - sent
+        moved = _clipped(sent + _clipped(way, -furthest, furthest), self.lower, self.upper)
+        return Command(moved, inside != target, np.abs(way) > furthest)
+
+
+def _clipped(values: FloatArray, lower: FloatArray, upper: FloatArray) -> FloatArray:
+    """Return what np.clip returns for finite values, for a third of its price."""
+    inside: FloatArray = np.minimum(np.maximum(values, lower), upper)
+    return inside

@@ -50,20 +50,22 @@ def cost_of(arms: Arms) -> None:
 def by_pybullet() -> None:
     """Set the arm's joints and ask for the distance of each watched pair of links once."""
     client = {"physicsClientId": WORLD._client}
-    for motor in WORLD._motors[:7]:
-        pybullet.resetJointState(WORLD._body, motor, 0.0, **client)
-    for one, other in LINK_PAIRS:
-        pybullet.getClosestPoints(WORLD._body, WORLD._body, 0.16, one, other, **client)
+    for motor in WORLD._baxter._motors[:7]:
+        pybullet.resetJointState(motor.body, motor.joint, 0.0, **client)
+    for (one, link), (other, second) in LINK_PAIRS:
+        pybullet.getClosestPoints(one, other, 0.16, link, second, **client)
 
 
-def link_pairs() -> list[tuple[int, int]]:
-    """Return pybullet's numbers of the links that the left arm's guard keeps apart."""
-    count = pybullet.getNumJoints(WORLD._body, physicsClientId=WORLD._client)
-    found = [
-        pybullet.getJointInfo(WORLD._body, index, physicsClientId=WORLD._client)
-        for index in range(count)
-    ]
-    numbers = {info[12].decode(): info[0] for info in found} | {"base": -1}
+def link_pairs() -> list[tuple[tuple[int, int], tuple[int, int]]]:
+    """Return pybullet's bodies and links that the left arm's guard keeps apart."""
+    client = {"physicsClientId": WORLD._client}
+    bodies = sorted({motor.body for motor in WORLD._baxter._motors})
+    numbers = {
+        pybullet.getJointInfo(body, index, **client)[12].decode(): (body, index)
+        for body in bodies
+        for index in range(pybullet.getNumJoints(body, **client))
+    }
+    numbers["base"] = (bodies[0], -1)
     clearance = Guard.for_robot(load_robot(), "left").clearance
     pairs, parts = clearance.pairs, clearance.capsules.parts
     rounded = zip(pairs.first[: pairs.rounded], pairs.second[: pairs.rounded], strict=True)

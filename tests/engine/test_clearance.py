@@ -11,7 +11,7 @@ from studio.engine.clearance import Clearance, Pairs
 from studio.engine.robot import BASE_HEIGHT, JOINT_NAMES, load_robot
 from studio.engine.scene import Scene
 from studio.engine.skeleton import FloatArray
-from studio.engine.world import _load_robot
+from studio.engine.world_robot import load_bodies
 
 ROBOT = load_robot()
 REST = np.zeros(15)
@@ -32,13 +32,15 @@ class Bullet:
 
     def __init__(self) -> None:
         self.client = pybullet.connect(pybullet.DIRECT)
-        self.body = _load_robot(self.client)
-        count = pybullet.getNumJoints(self.body, physicsClientId=self.client)
+        bodies = load_bodies(self.client, fingers=False, looks=False)
         found = [
-            pybullet.getJointInfo(self.body, i, physicsClientId=self.client) for i in range(count)
+            (body, pybullet.getJointInfo(body, i, physicsClientId=self.client))
+            for body in bodies
+            for i in range(pybullet.getNumJoints(body, physicsClientId=self.client))
         ]
-        self.motors = {info[1].decode(): info[0] for info in found}
-        self.links = {info[12].decode(): info[0] for info in found} | {"base": -1}
+        self.motors = {info[1].decode(): (body, info[0]) for body, info in found}
+        self.links = {info[12].decode(): (body, info[0]) for body, info in found}
+        self.links["base"] = (bodies[0], -1)
         desk = Scene().placed_desk
         half = [side / 2 for side in desk.size]
         shape = pybullet.createCollisionShape(
@@ -50,15 +52,12 @@ class Bullet:
 
     def put(self, angles: FloatArray) -> None:
         for name, angle in zip(JOINT_NAMES, angles.tolist(), strict=True):
-            pybullet.resetJointState(
-                self.body, self.motors[name], angle, physicsClientId=self.client
-            )
+            pybullet.resetJointState(*self.motors[name], angle, physicsClientId=self.client)
 
     def distance(self, one: str, other: str) -> float:
-        link = self.links[one]
-        second = (self.desk, -1) if other == "desk" else (self.body, self.links[other])
+        (body, link), second = self.links[one], self.links.get(other, (self.desk, -1))
         found = pybullet.getClosestPoints(
-            self.body, second[0], FAR, link, second[1], physicsClientId=self.client
+            body, second[0], FAR, link, second[1], physicsClientId=self.client
         )
         return min((point[8] for point in found), default=FAR)
 
@@ -106,7 +105,7 @@ def test_the_broad_phase_leaves_out_nothing_that_is_near() -> None:
         lines = ARMS.lines(angles)
         distances = ARMS.distances(lines, ARMS.pairs)
         for reach in (ARMS.pairs.stop, ARMS.pairs.slow):
-            near = ARMS.within(lines, reach)
+            near = ARMS.pairs.chosen(ARMS.within(lines, reach))
             found = set(zip(near.first.tolist(), near.second.tolist(), strict=True))
             needed = np.flatnonzero(distances < reach)
             first, second = ARMS.pairs.first[needed], ARMS.pairs.second[needed]
@@ -122,6 +121,21 @@ def test_no_pair_comes_nearer_than_its_two_travel() -> None:
         travels = ARMS.travels(lines[0], lines[1])
         assert (before - after <= travels + 1e-9).all()
         assert (travels < 1.4 * np.abs(moved - angles).sum()).all()
+
+
+def test_no_pair_comes_nearer_than_the_levers_of_its_joints_allow() -> None:
+    random = np.random.default_rng(6)
+    shares = []
+    for angles in random_poses(30, seed=7):
+        turns = random.normal(scale=0.1, size=15) * (random.random(15) < 0.5)
+        turns[-1] = 0.0
+        ways = np.linspace(angles, angles + turns, 7)
+        before, *after = ARMS.distances(ARMS.lines(ways), ARMS.pairs)
+        most = ARMS.may_travel(turns[:14])
+        nearest = before - np.min(after, axis=0)
+        assert (nearest <= most + 1e-12).all()
+        shares.append(np.max(nearest / np.maximum(most, 1e-3)))
+    assert max(shares) > 0.5  # it is no empty bound
 
 
 def test_many_poses_at_once_are_each_of_them() -> None:

@@ -3,6 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from studio.engine.clearance import Clearance
 from studio.engine.follow import follow
 from studio.engine.guard import SOFTNESS, Guard, Guarded
 from studio.engine.limits import Command
@@ -120,6 +121,28 @@ def test_no_command_brings_any_pair_nearer_than_its_margin(guard: Guard) -> None
         bitten += bool(guarded.reason)
         assert bool(guarded.reason) == (guarded.pair is not None)
     assert bitten > 5
+
+
+@pytest.mark.parametrize("guard", [GUARD, BOTH], ids=["one arm", "both"])
+def test_looking_at_near_pairs_only_changes_no_bit(
+    guard: Guard, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two roads: the pairs that the broad phase leaves, and all of them."""
+    random = np.random.default_rng(3)
+    steps = []
+    for _ in range(150):
+        before = random_pose(guard, random)
+        steps.append((before, before + random.uniform(-STEP, STEP, len(before))))
+    near = [guard.step(*step, CONTROL_PERIOD) for step in steps]
+    every = np.arange(len(guard.clearance.pairs))
+    monkeypatch.setattr(Clearance, "within", lambda *_: every)
+    monkeypatch.setattr(Clearance, "may_travel", lambda *_: np.full(len(every), np.inf))
+    whole = [guard.step(*step, CONTROL_PERIOD) for step in steps]
+    for one, other in zip(near, whole, strict=True):
+        np.testing.assert_array_equal(one.sent, other.sent)
+        assert (one.reason, one.pair, one.stopped) == (other.reason, other.pair, other.stopped)
+        assert one.distance == other.distance
+    assert sum(bool(each.reason) for each in near) > 20
 
 
 def test_a_command_that_brings_nothing_nearer_is_never_held() -> None:

@@ -136,3 +136,19 @@ def test_below_a_joint_is_what_it_moves() -> None:
     column = load_robot().joint_index("right_w1")
     found = [kinematics.children[joint] for joint in kinematics.below([column])]
     assert found == ["right_lower_forearm", "right_wrist", "right_hand"]
+
+
+@pytest.mark.parametrize("fingers", [False, True])
+@pytest.mark.parametrize("moved", ["left_s0 left_e1 left_w2", "right_e0 left_s1", "head_pan"])
+def test_what_moves_alone_is_where_it_is_among_all_to_the_bit(fingers: bool, moved: str) -> None:
+    robot = load_robot(fingers)
+    columns = [robot.joint_index(name) for name in moved.split()]
+    rest = np.random.default_rng(1).uniform(robot.limits.lower, robot.limits.upper)
+    angles = np.tile(rest, (5, 1))
+    angles[:, columns] = np.random.default_rng(2).uniform(-1.0, 1.0, (5, len(columns)))
+    moving = robot.kinematics.moving(rest, columns)
+    carried = [1 + joint for joint in moving.joints]
+    whole = robot.kinematics.stacked(angles)
+    poses = moving.poses(angles[:, columns]).transpose(1, 0, 2, 3)
+    np.testing.assert_array_equal(poses, whole[:, carried])
+    np.testing.assert_array_equal(moving.poses(angles[0, columns]), whole[0, carried])
