@@ -1,77 +1,29 @@
-"""What stands around the robot: a desk and building blocks, where pushing one down is possible.
+"""What stands around the robot, and what is to be done with it: by default the paper's task.
 
 Frame: the floor below the robot's base; x forward, y to the robot's left, z up.
 """
 
 import math
-from dataclasses import dataclass, field, replace
-from functools import cache
+from dataclasses import dataclass, replace
 
 from studio.engine.arms import ARMS, Arms
-from studio.engine.errors import FileError, StudioError
-from studio.engine.resources import resource_root
-from studio.engine.urdf import Box, read_urdf
+from studio.engine.errors import StudioError
+from studio.engine.scene_parts import Block, Desk, Pair, Triple, Zone, overlap_from_above
+from studio.engine.success import PUSH_DOWN, InZone, Success
+from studio.engine.wrist import WristMode
 
-Triple = tuple[float, float, float]
+__all__ = ["DEFAULT_SCENE", "USUAL", "Block", "Desk", "Scene", "Triple", "Zone"]
 
-# Both mappings can push the block here, with 2 cm to spare in each direction.
-_DESK_POSITION: Triple = (0.75, 0.15, 0.70)
-_BLOCK_POSITION: Triple = (0.80, 0.20, 0.87)
-
-
-@dataclass(frozen=True)
-class Block:
-    """A box that can be moved, its edges along the axes to begin with.
-
-    Raises
-    ------
-    StudioError
-        Where a number is not finite, or a size or the mass is not positive.
-    """
-
-    size: Triple  # along x, y, z [m]
-    position: Triple  # of its center [m]
-    mass: float  # [kg]
-    friction: float
-
-    def __post_init__(self) -> None:
-        _check("a block", self.size, self.position, self.friction)
-        if not (math.isfinite(self.mass) and self.mass > 0):
-            raise StudioError(f"a block's mass must be positive, not {self.mass!r} kg")
-
-
-@dataclass(frozen=True)
-class Desk:
-    """A desk's top, which does not move.
-
-    Raises
-    ------
-    StudioError
-        Where a number is not finite, or a size is not positive.
-    """
-
-    size: Triple  # along x, y, z [m]
-    position: Triple  # of the middle of the top [m]
-    friction: float
-
-    def __post_init__(self) -> None:
-        _check("a desk", self.size, self.position, self.friction)
-
-
-@cache
-def default_desk() -> Desk:
-    """Return the desk of urdf/desk.urdf in its place."""
-    size, _, friction = _box("desk")
-    return Desk(size, _DESK_POSITION, friction)
-
-
-@cache
-def default_blocks() -> tuple[Block, ...]:
-    """Return the block of urdf/block.urdf in its place, and two that lie out of the way."""
-    size, mass, friction = _box("block")
-    lying = Block((0.12, 0.06, 0.05), (0.60, 0.50, 0.745), 0.2, friction)
-    cube = Block((0.06, 0.06, 0.06), (0.95, 0.48, 0.75), 0.12, friction)
-    return Block(size, _BLOCK_POSITION, mass, friction), lying, cube
+DEFAULT_SCENE = "push-down"
+# The paper's task: both mappings can push the block here, with 2 cm to spare in each direction.
+# urdf/scenes/push-down.toml says the same in words; a test holds the two together.
+_WORDS = "The paper's task: push the tall block down."
+_DESK = Desk((0.60, 0.90, 0.04), (0.75, 0.15, 0.70), 0.8)
+_BLOCKS = (
+    Block((0.10, 0.06, 0.30), (0.80, 0.20, 0.87), 0.4, 0.6),
+    Block((0.12, 0.06, 0.05), (0.60, 0.50, 0.745), 0.2, 0.6, "lying block"),
+    Block((0.06, 0.06, 0.06), (0.95, 0.48, 0.75), 0.12, 0.6, "cube"),
+)
 
 
 @dataclass(frozen=True)
@@ -81,41 +33,75 @@ class Scene:
     Raises
     ------
     StudioError
-        Where there is no block.
+        Where there is no block, two have one name, the success is about what is not there, or the
+        task takes both arms and only one is taught.
     """
 
-    desk: Desk = field(default_factory=default_desk)
-    blocks: tuple[Block, ...] = field(default_factory=default_blocks)  # the first is the task's
+    desk: Desk = _DESK
+    blocks: tuple[Block, ...] = _BLOCKS
     arms: Arms = "left"  # those that are taught
+    name: str = DEFAULT_SCENE
+    zones: tuple[Zone, ...] = ()
+    success: Success = PUSH_DOWN
+    both_arms: bool = False  # whether the task takes two
+    gripper: bool = False  # whether it takes fingers
+    words: str = _WORDS  # what to do, for people
+    wrist: WristMode = "zero"  # how the hands are held
 
     def __post_init__(self) -> None:
         if not self.blocks:
             raise StudioError("a scene needs at least one block, the one to push down")
         if self.arms not in ARMS:
             raise StudioError(f"taught are the left arm, the right or both, not {self.arms!r}")
+        if self.both_arms and self.arms != "both":
+            raise StudioError(f"the scene {self.name} takes both arms, not the {self.arms} alone")
+        for things in (self.blocks, self.zones):
+            names = [thing.name for thing in things]
+            if len(set(names)) < len(names):
+                raise StudioError(f"the scene {self.name} has two things of one name: {names}")
+        self._check_success()
+
+    def taught_by(self, arms: Arms) -> "Scene":
+        """Return this scene for other arms; raise StudioError where it takes both of them."""
+        return self if arms == self.arms else replace(self, arms=arms)
+
+    @property
+    def task_blocks(self) -> tuple[int, ...]:
+        """The numbers of the blocks that the task is about, in the order in which it names them."""
+        names = [block.name for block in self.blocks]
+        return tuple(names.index(name) for name in self.success.blocks)
 
     @property
     def placed_desk(self) -> Desk:
         """The desk where it really stands."""
-        return replace(self.desk, position=self._placed(self.desk.position))
+        return self.desk.mirrored if self.arms == "right" else self.desk
 
     @property
     def placed_blocks(self) -> tuple[Block, ...]:
         """The blocks where they really stand."""
-        return tuple(replace(b, position=self._placed(b.position)) for b in self.blocks)
+        return tuple(b.mirrored for b in self.blocks) if self.arms == "right" else self.blocks
 
     @property
-    def room_for_block(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """From where to where the task's block may really stand: its center's x [m], and its y."""
-        desk, size = self.placed_desk, self.blocks[0].size
+    def placed_zones(self) -> tuple[Zone, ...]:
+        """The zones where they really are."""
+        return tuple(z.mirrored for z in self.zones) if self.arms == "right" else self.zones
+
+    @property
+    def room_for_block(self) -> tuple[Pair, Pair]:
+        """From where to where the first block may really stand: its center's x [m], and its y."""
+        return self.room_for(0)
+
+    def room_for(self, block: int) -> tuple[Pair, Pair]:
+        """From where to where the block of that number may really stand: its center's x, its y."""
+        desk, size = self.placed_desk, self.blocks[block].size
         reach = [(edge - side) / 2 for edge, side in zip(desk.size, size, strict=True)]
         (x, y, _), (dx, dy, _) = desk.position, reach
         return (x - dx, x + dx), (y - dy, y + dy)
 
-    def with_block_at(self, x: float, y: float) -> "Scene":
-        """Return this scene with the task's block at x, y [m] as it is really to stand.
+    def with_block_at(self, x: float, y: float, block: int = 0) -> "Scene":
+        """Return this scene with a block at x, y [m] as it is really to stand.
 
-        It comes as near to that as the desk's top is wide.
+        It comes as near to that as the desk's top is wide. ``block`` is its number.
 
         Raises
         ------
@@ -124,41 +110,27 @@ class Scene:
         """
         if not (math.isfinite(x) and math.isfinite(y)):
             raise StudioError(f"the block's place must be finite, not {x}, {y}")
-        task = self.blocks[0]
-        in_x, in_y = self.room_for_block
-        at = (min(max(x, in_x[0]), in_x[1]), min(max(y, in_y[0]), in_y[1]), task.position[2])
-        moved = replace(task, position=self._placed(at))
-        if any(_overlap(moved, other) for other in self.blocks[1:]):
+        if not 0 <= block < len(self.blocks):
+            raise StudioError(f"there is no block {block}: they count from 0")
+        mine = self.blocks[block]
+        in_x, in_y = self.room_for(block)
+        at = (min(max(x, in_x[0]), in_x[1]), min(max(y, in_y[0]), in_y[1]), mine.position[2])
+        moved = replace(mine, position=at)
+        moved = moved.mirrored if self.arms == "right" else moved
+        others = [other for number, other in enumerate(self.blocks) if number != block]
+        if any(overlap_from_above(moved, other) for other in others):
             raise StudioError("Another block stands there: put this one beside it")
-        return replace(self, blocks=(moved, *self.blocks[1:]))
+        blocks = tuple(moved if i == block else other for i, other in enumerate(self.blocks))
+        return replace(self, blocks=blocks)
 
-    def _placed(self, position: Triple) -> Triple:
-        x, y, z = position
-        return (x, -y, z) if self.arms == "right" else position
-
-
-def _overlap(one: Block, other: Block) -> bool:
-    """Tell whether two blocks would stand in each other, seen from above."""
-    return all(
-        abs(a - b) < (wide + long) / 2
-        for a, b, wide, long in zip(
-            one.position[:2], other.position[:2], one.size, other.size, strict=False
-        )
-    )
+    def _check_success(self) -> None:
+        blocks = {block.name for block in self.blocks}
+        zones = {zone.name for zone in self.zones}
+        for condition in self.success.conditions:
+            if condition.block not in blocks:
+                raise StudioError(f"the scene {self.name} has no block {condition.block!r}")
+            if isinstance(condition, InZone) and condition.zone not in zones:
+                raise StudioError(f"the scene {self.name} has no zone {condition.zone!r}")
 
 
-def _box(name: str) -> tuple[Triple, float, float]:
-    """Return size [m], mass [kg] and friction of the box that urdf/<name>.urdf collides as."""
-    path = resource_root() / "urdf" / f"{name}.urdf"
-    link = read_urdf(path).links[0]
-    shape = link.collisions[0].shape
-    if not isinstance(shape, Box):
-        raise FileError(f"{path}: its collision shape must be a box, not {shape}; reinstall")
-    return shape.size, link.mass, link.friction
-
-
-def _check(what: str, size: Triple, position: Triple, friction: float) -> None:
-    if not all(math.isfinite(number) for number in (*size, *position, friction)):
-        raise StudioError(f"{what}'s size, position and friction must be finite")
-    if min(size) <= 0 or friction < 0:
-        raise StudioError(f"{what} has sides above 0 m and a friction of 0 or more")
+USUAL = Scene()

@@ -28,28 +28,32 @@ class WorldState:
     block_down: bool  # touched, leaning more than DOWN_TILT, and at rest
     # How far out the fingers of both hands are [m], as in fingers.FINGER_JOINTS; (0,) without them.
     fingers: FloatArray = field(default_factory=lambda: np.empty(0))
+    done: bool = False  # the scene's success condition holds; of the paper's task: block_down
+    missing: str = ""  # what is missing for that yet, in words
 
     @classmethod
     def of(
-        cls, time: float, joints: FloatArray, block_poses: FloatArray, watch: "BlockWatch"
+        cls, time: float, joints: FloatArray, block_poses: FloatArray, verdict: "Verdict"
     ) -> "WorldState":
-        """Return what joints (15 or 19, 2), each position and velocity, blocks and watch tell."""
+        """Return what joints (15 or 19, 2), each position and velocity, blocks and judge tell."""
         arms = len(JOINT_NAMES)  # then come fingers, if there are any
         return cls(
             time=time,
             joint_positions=frozen(joints[:arms, 0]),
             joint_velocities=frozen(joints[:arms, 1]),
             block_poses=frozen(block_poses),
-            touched=watch.touched,
-            tilt=watch.tilt,
-            block_down=watch.down,
+            touched=verdict.task.touched,
+            tilt=verdict.task.tilt,
+            block_down=verdict.task.down,
             fingers=frozen(joints[arms:, 0]),
+            done=verdict.done,
+            missing=verdict.missing,
         )
 
 
 @dataclass(frozen=True)
 class BlockWatch:
-    """What is known of the task's block: the memory from tick to tick."""
+    """What is known of a block: the memory from tick to tick."""
 
     touched: bool = False
     tilt: float = 0.0  # [rad]
@@ -69,9 +73,23 @@ class BlockWatch:
         )
 
     @property
+    def at_rest(self) -> bool:
+        """Whether it has not moved for a while."""
+        return self.slow_ticks >= REST_TICKS
+
+    @property
     def down(self) -> bool:
         """Whether the taught arm touched it, and it leans more than 60° and is at rest."""
-        return self.touched and self.tilt > DOWN_TILT and self.slow_ticks >= REST_TICKS
+        return self.touched and self.tilt > DOWN_TILT and self.at_rest
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a scene's judge has come to after a tick (`studio.engine.judge`)."""
+
+    task: BlockWatch  # of the scene's first block
+    done: bool
+    missing: str  # what is missing yet, in words; nothing where it is done
 
 
 def frozen(values: ArrayLike) -> FloatArray:

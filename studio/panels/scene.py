@@ -1,6 +1,7 @@
 """The 3D view: Baxter, desk and blocks, the person beside it, and what is compared."""
 
 import threading
+from functools import partial
 
 import numpy as np
 import viser
@@ -34,8 +35,8 @@ class SceneView:
         self._robot: RobotView | None = None
         self._ghosts: dict[Side, GhostView] = {}
         self._furniture = Furniture(self._scene)
-        self._block: Drag | None = None
-        self._dragged: viser.BoxHandle | None = None  # by it
+        self._drags: dict[int, Drag] = {}  # of the task's blocks, by their numbers
+        self._dragged: list[viser.BoxHandle] = []  # the blocks among which they are
         set_the_stage(server)
         self._person = PersonView(self._scene)
         self._second = SecondRobot(self._scene, detail)
@@ -77,17 +78,22 @@ class SceneView:
         self._ghosts = {side: GhostView(self._scene, f"/ghost_{side}") for side in SIDES}
 
     def _draw_blocks(self, now: Snapshot) -> None:
-        """Draw the blocks where they are; the task's one follows whoever drags it."""
+        """Draw the blocks where they are; those of the task follow whoever drags them."""
         poses = now.world.block_poses
-        self._furniture.draw(now.choices.arms, poses)
-        block = self._furniture.blocks[0]
-        if self._block is None or self._dragged is not block:
-            self._dragged, self._block = block, Drag(block, {None: over(_UP)}, self._place_block)
-        self._block.draw(poses[0, :3])
+        self._furniture.draw(now.scene, poses)
+        blocks = self._furniture.blocks
+        if self._dragged is not blocks:
+            self._dragged = blocks
+            self._drags = {
+                number: Drag(blocks[number], {None: over(_UP)}, partial(self._place_block, number))
+                for number in now.scene.task_blocks
+            }
+        for number, drag in self._drags.items():
+            drag.draw(poses[number, :3])
 
-    def _place_block(self, point: FloatArray, is_let_go: bool) -> None:
+    def _place_block(self, number: int, point: FloatArray, is_let_go: bool) -> None:
         if is_let_go:
-            self._post(commands.PlaceBlock(float(point[0]), float(point[1])))
+            self._post(commands.PlaceBlock(float(point[0]), float(point[1]), number))
 
 
 def _ghost_arms(now: Snapshot) -> Arms:

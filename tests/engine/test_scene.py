@@ -3,7 +3,8 @@ from dataclasses import replace
 import pytest
 
 from studio.engine.errors import StudioError
-from studio.engine.scene import Block, Desk, Scene
+from studio.engine.scene import Block, Desk, Scene, Zone
+from studio.engine.success import Down, InZone, Success
 
 BLOCK = Block((0.1, 0.06, 0.3), (0.8, 0.2, 0.87), 0.4, 0.6)
 
@@ -99,3 +100,46 @@ def test_a_block_is_not_put_into_another_one_nor_nowhere() -> None:
         Scene().with_block_at(x, y + 0.02)
     with pytest.raises(StudioError, match="finite"):
         Scene().with_block_at(float("nan"), 0.0)
+
+
+def test_any_block_can_be_moved_and_none_onto_another() -> None:
+    moved = Scene(arms="right").with_block_at(0.7, -0.1, 1)
+    assert moved.placed_blocks[1].position[:2] == (0.7, -0.1)
+    assert moved.blocks[1].position[:2] == (0.7, 0.1)
+    x, y, _ = Scene().blocks[0].position
+    with pytest.raises(StudioError, match="Another block"):
+        Scene().with_block_at(x, y, 2)
+    with pytest.raises(StudioError, match="no block 3"):
+        Scene().with_block_at(x, y, 3)
+
+
+def test_the_tasks_blocks_are_those_that_its_success_names_in_its_order() -> None:
+    assert Scene().task_blocks == (0,)
+    success = Success((Down("cube"), Down("block"), Down("cube")))
+    assert Scene(success=success).task_blocks == (2, 0)
+
+
+def test_zones_are_mirrored_with_all_else() -> None:
+    scene = Scene(zones=(Zone("mat", (0.7, 0.1), (0.1, 0.2)),))
+    (mirrored,) = scene.taught_by("right").placed_zones
+    assert (mirrored.center, mirrored.size) == ((0.7, -0.1), (0.1, 0.2))
+    assert scene.taught_by("right").taught_by("left") == scene
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"both_arms": True}, "takes both arms"),
+        ({"success": Success((Down("tower"),))}, "no block 'tower'"),
+        ({"success": Success((InZone("block", "mat"),))}, "no zone 'mat'"),
+        ({"blocks": (BLOCK, BLOCK)}, "two things of one name"),
+    ],
+)
+def test_scenes_that_cannot_be_are_refused(changes: dict[str, object], told: str) -> None:
+    with pytest.raises(StudioError, match=told):
+        Scene(**changes)  # type: ignore[arg-type]
+
+
+def test_success_needs_a_condition() -> None:
+    with pytest.raises(StudioError, match="at least one condition"):
+        Success(())
