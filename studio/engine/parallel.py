@@ -6,7 +6,9 @@ What runs where is joblib's choice of backend, so a study moves to a cluster unc
         sweep(taught, ...)
 """
 
-from collections.abc import Callable, Sequence
+import os
+from collections.abc import Callable, Iterator, Sequence
+from importlib.util import find_spec
 from typing import TypeVar
 
 from studio.engine.errors import StudioError
@@ -15,10 +17,31 @@ Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 
+def has_joblib() -> bool:
+    """Tell whether several jobs at once are possible here."""
+    return find_spec("joblib") is not None
+
+
+def most_jobs() -> int:
+    """Return how many jobs at once are worth while here: 1 without joblib, else the processors."""
+    if not has_joblib():
+        return 1
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 def run_all(
     function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int | None = None
 ) -> list[Result]:
-    """Return what the function makes of every task, in order.
+    """Return what the function makes of every task, in order; see `run_each`."""
+    return list(run_each(function, tasks, jobs))
+
+
+def run_each(
+    function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int | None = None
+) -> Iterator[Result]:
+    """Yield what the function makes of every task, in order, each as soon as it is there.
 
     Parameters
     ----------
@@ -41,8 +64,9 @@ def run_all(
             raise StudioError(
                 f"{jobs} jobs at once need joblib: pip install 'teaching-studio[compare]'"
             ) from None
-        return [function(task) for task in tasks]
+        yield from map(function, tasks)
+        return
     if len(tasks) == 0:
-        return []
-    results: list[Result] = Parallel(n_jobs=jobs)(delayed(function)(task) for task in tasks)
-    return results
+        return
+    side_by_side = Parallel(n_jobs=jobs, return_as="generator")
+    yield from side_by_side(delayed(function)(task) for task in tasks)

@@ -2,8 +2,9 @@ import builtins
 
 import pytest
 
+from studio.engine import parallel
 from studio.engine.errors import StudioError
-from studio.engine.parallel import run_all
+from studio.engine.parallel import most_jobs, run_all, run_each
 
 
 def square(number):
@@ -31,6 +32,27 @@ def test_without_joblib_one_after_the_other_or_a_cure(monkeypatch):
     assert run_all(square, [3, 4], jobs=1) == [9, 16]
     with pytest.raises(StudioError, match=r"2 jobs at once need joblib: pip install"):
         run_all(square, [3, 4], jobs=2)
+
+
+def test_each_result_comes_as_soon_as_it_is_there(monkeypatch):
+    done = []
+
+    def noted(number):
+        done.append(number)
+        return number
+
+    found = run_each(noted, [1, 2, 3], jobs=1)
+    assert next(found) == 1
+    assert done == [1]
+    without_joblib(monkeypatch)
+    found = run_each(noted, [4, 5], jobs=1)
+    assert (next(found), done) == (4, [1, 4])
+
+
+def test_as_many_jobs_as_processors_or_one_without_joblib(monkeypatch):
+    assert most_jobs() >= 1
+    monkeypatch.setattr(parallel, "has_joblib", lambda: False)
+    assert most_jobs() == 1
 
 
 def test_several_jobs_give_the_same():

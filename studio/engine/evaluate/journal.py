@@ -1,0 +1,171 @@
+"""Trials that are over, in a file that is only ever appended to, so that none is done twice.
+
+    {"format": "teaching-studio evaluation", "schema": 1, "versions": {...}, "scene": {...},
+     "seed": 0, "widths": {"block": 0.03, ...}, "motions": {"model": "9f3c..."}}
+    {"motion": "model", "trial": 0, "done": true, "why": ""}
+    {"motion": "model", "trial": 1, "done": false, "why": "the block still stands"}
+
+The first line says what the trials are of. A folder with another first line is refused, so that
+no table is ever made of two things; how many trials are asked for is not in it, for more of the
+same go on where the others ended. A process that is killed leaves at most a torn last line, which
+is dropped: that trial is done once more, with the same outcome.
+"""
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, BinaryIO, Self
+
+from numpy.typing import NDArray
+
+import studio
+from studio.engine.errors import FileError, StudioError
+from studio.engine.evaluate.motion import Motion
+from studio.engine.evaluate.trial import Outcome
+from studio.engine.evaluate.variation import Variations, widths_of
+from studio.engine.scene import Scene
+from studio.engine.sources.strict_json import as_object, parse_json
+
+FILE = "trials.jsonl"
+FORMAT, SCHEMA = "teaching-studio evaluation", 1
+_LIBRARIES = ("numpy", "pybullet")  # what outcomes depend on
+_LARGEST = 1 << 30  # [bytes] of a file that is read; a trial takes some 80
+_IN_WORDS = {
+    "versions": "another version of the studio or its libraries",
+    "scene": "another scene",
+    "seed": "another seed",
+    "widths": "other variations",
+    "motions": "another model, or other demonstrations or networks",
+}
+Key = tuple[str, int]  # a motion's name, and the trial's number
+
+
+def header_of(
+    motions: Sequence[Motion], scene: Scene, widths: Variations, seed: int
+) -> dict[str, Any]:
+    """Return the first line of a file of such trials."""
+    return {
+        "format": FORMAT,
+        "schema": SCHEMA,
+        "versions": {"studio": studio.__version__, **{n: version(n) for n in _LIBRARIES}},
+        "scene": json.loads(json.dumps(asdict(scene))),  # tuples as JSON has them
+        "seed": seed,
+        "widths": widths_of(widths),
+        "motions": {motion.name: digest_of(motion) for motion in motions},
+    }
+
+
+def digest_of(motion: Motion) -> str:
+    """Return a digest of all that makes up a motion, to the bit."""
+    digest = hashlib.sha256(repr((motion.arms, motion.mapping, motion.duration)).encode())
+    arrays: list[NDArray[Any]] = [motion.wanted, motion.sent]
+    if motion.hands is not None:
+        digest.update(repr(motion.hands.options).encode())
+        arrays += [motion.hands.times, motion.hands.wrist, motion.hands.closed]
+    for array in arrays:
+        digest.update(repr((array.shape, array.dtype.str)).encode())
+        digest.update(array.tobytes())
+    return digest.hexdigest()
+
+
+class Journal:
+    """The trials of one evaluation; a context manager.
+
+    Parameters
+    ----------
+    folder
+        Where its file is, or will be; made if it is not there.
+    header
+        What the trials are of, see `header_of`.
+
+    Raises
+    ------
+    FileError
+        Where the folder or its file cannot be used, or holds trials of something else.
+    """
+
+    def __init__(self, folder: Path, header: Mapping[str, Any]) -> None:
+        self.path = folder / FILE
+        self.known: dict[Key, Outcome] = {}
+        self._header = dict(header)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            whole = self._read()
+            self._file: BinaryIO = self.path.open("ab", buffering=0)
+            self._file.truncate(whole)  # a torn last line
+            if whole == 0:
+                self._write(self._header)
+        except OSError as error:
+            raise FileError(f"{self.path}: cannot be used: {error.strerror}") from error
+
+    def add(self, key: Key, outcome: Outcome) -> None:
+        """Keep a trial that is over; a kill from here on loses nothing of it.
+
+        Raises
+        ------
+        FileError
+            Where it cannot be written.
+        """
+        name, trial = key
+        try:
+            self._write({"motion": name, "trial": trial, **asdict(outcome)})
+        except OSError as error:
+            raise FileError(f"{self.path}: cannot be written: {error.strerror}") from error
+        self.known[key] = outcome
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _write(self, line: Mapping[str, Any]) -> None:
+        self._file.write((json.dumps(line, allow_nan=False) + "\n").encode())
+
+    def _read(self) -> int:
+        """Take in what is there, and return how many bytes of it are whole lines."""
+        if not self.path.exists():
+            return 0
+        if self.path.stat().st_size > _LARGEST:
+            raise FileError(f"{self.path}: larger than {_LARGEST:,} bytes; choose another folder")
+        content = self.path.read_bytes()
+        whole = content.rfind(b"\n") + 1
+        for number, line in enumerate(content[:whole].splitlines(), start=1):
+            try:
+                table = as_object(parse_json(line.decode()), "a line")
+                if number > 1:
+                    self.known.update([_trial(table)])
+            except (StudioError, UnicodeDecodeError) as error:
+                raise FileError(
+                    f"{self.path}: line {number}: {error}; choose another folder for --out, or "
+                    "delete the file"
+                ) from error
+            if number == 1:
+                self._check(table)
+        return whole
+
+    def _check(self, found: Mapping[str, object]) -> None:
+        """Raise FileError where the trials that are there are of something else."""
+        if found.get("format") != FORMAT or found.get("schema") != SCHEMA:
+            raise FileError(f"{self.path}: holds no trials as this studio keeps them; {_CURE}")
+        for key, words in _IN_WORDS.items():
+            if found.get(key) != self._header[key]:
+                raise FileError(f"{self.path}: holds trials of {words}; {_CURE}")
+
+
+_CURE = "choose another folder for --out, or ask for the same as before"
+
+
+def _trial(table: Mapping[str, object]) -> tuple[Key, Outcome]:
+    """Return what a line tells; raise StudioError where it is no trial."""
+    match dict(table):
+        case {"motion": str(name), "trial": int(trial), "done": bool(done), "why": str(why)}:
+            return (name, trial), Outcome(done, why)
+    raise StudioError("expected motion, trial, done and why")
