@@ -1,0 +1,130 @@
+"""A thread for each link, so that no tick ever waits for a network.
+
+Commands go in by a slot of one: the newest wins, each is sent once, and one that has grown old
+is never sent. That is the watchdog: where the studio stalls, or stops commanding, nothing leaves
+any more, and Baxter's own controller holds its position 0.2 s later (its default timeout).
+"""
+
+import threading
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from studio.engine.links.lateness import Lateness, lateness
+from studio.engine.links.link import LinkError, Range, RobotLink, RobotState
+
+STALE = 0.2  # [s] after which neither a command nor a state is worth anything: Baxter's own timeout
+POLL = 0.005  # [s] between two looks at what came, while nothing is to send
+RETRY = 1.0  # [s] before a lost link is opened anew
+_LONGEST_CLOSE = 3.0  # [s] that the studio's end waits for a link's
+
+Order = Callable[[RobotLink], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Heard:
+    """The newest state, and when it came."""
+
+    state: RobotState
+    at: float  # [s] by our clock
+    late: float = 0.0  # [s] that it took longer than the quickest one
+
+    def age(self, now: float) -> float:
+        """Return how old it is [s]."""
+        return now - self.at + self.late
+
+
+class LinkThread:
+    """See the module. Every method may be called from any thread, and none but `close` waits.
+
+    Parameters
+    ----------
+    link
+        Only this thread touches it.
+    now
+        Any clock [s] that does not run back.
+    """
+
+    def __init__(self, link: RobotLink, now: Callable[[], float]) -> None:
+        self.url, self._link, self._now = link.url, link, now
+        self.heard: Heard | None = None  # None while it is not connected, or tells nothing
+        self.limits: Mapping[str, Range] = {}
+        self.is_open = False
+        self.trouble = ""  # why it is not connected, in words
+        self.sent = 0  # commands that left
+        self._lock = threading.Lock()
+        self._slot: tuple[float, Mapping[str, float]] | None = None
+        self._orders: deque[Order] = deque()
+        self._news, self._closing = threading.Event(), threading.Event()
+        self._thread = threading.Thread(target=self._run, name="robot link", daemon=True)
+        self._thread.start()
+
+    def put(self, targets: Mapping[str, float] | None) -> None:
+        """Send targets as soon as possible, in place of any that wait; None: and nothing else."""
+        with self._lock:
+            fits = self.is_open and targets is not None
+            self._slot = (self._now(), dict(targets or {})) if fits else None
+        self._news.set()
+
+    def order(self, order: Order) -> None:
+        """Let the link do something else, in the order of the calls, if it is open."""
+        with self._lock:
+            if self.is_open:
+                self._orders.append(order)
+        self._news.set()
+
+    def end(self) -> None:
+        """Let it end, soon; what waits is not sent."""
+        self._closing.set()
+        self._news.set()
+
+    def close(self) -> None:
+        """End it, and wait for that, though not for ever: no tick may call this."""
+        self.end()
+        self._thread.join(_LONGEST_CLOSE)
+
+    def _run(self) -> None:
+        while not self._closing.is_set():
+            try:
+                self._link.open()
+                self._serve()
+            except (LinkError, OSError) as lost:
+                self.trouble = str(lost)
+            except Exception as fault:  # a library's, or of ours: the same for the robot
+                self.trouble = f"{self.url}: the link failed: {type(fault).__name__}: {fault}"
+            finally:
+                self._forget()
+                self._link.close()
+            self._closing.wait(RETRY)
+
+    def _serve(self) -> None:
+        """Send and listen until the link is lost or closed."""
+        self.limits, self.trouble = self._link.limits, ""
+        with self._lock:
+            self.is_open = True
+        clocks: Lateness | None = None
+        while not self._closing.is_set():
+            self._news.wait(POLL)
+            self._news.clear()
+            self._pass_on()
+            state = self._link.read()
+            if state is not None:
+                at = self._now()
+                clocks = lateness(clocks, state.stamp, at)
+                self.heard = Heard(state, at, clocks.late if clocks else 0.0)
+
+    def _pass_on(self) -> None:
+        """Send what waits, orders first: one of them may be the end of it."""
+        with self._lock:
+            orders, self._orders = list(self._orders), deque()
+            waiting, self._slot = self._slot, None
+        for order in orders:
+            order(self._link)
+        if waiting is not None and self._now() - waiting[0] <= STALE and not self._closing.is_set():
+            self._link.send(waiting[1])
+            self.sent += 1
+
+    def _forget(self) -> None:
+        with self._lock:
+            self.is_open, self.heard, self._slot = False, None, None
+            self._orders.clear()
