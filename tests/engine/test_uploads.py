@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings, strategies
 
+from studio.engine import uploads
 from studio.engine.errors import FileError
-from studio.panels import uploads
-from studio.panels.uploads import Uploads, shown_name
+from studio.engine.uploads import Uploads, shown_name
 
 
 @pytest.fixture

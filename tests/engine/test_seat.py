@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from studio.panels.seat import PATIENCE, WATCHING, Seat
+from studio.engine.seat import PATIENCE, WATCHING, Seat
 
 BROWSERS = (1, 2, 3)
 
@@ -119,3 +119,21 @@ def test_one_controls_at_most_and_is_there(taken: list[tuple[str, int, float]]) 
         assert seat.holder is None or seat.holder in there
         assert seat.asking is None or (seat.asking in there and seat.asking != seat.holder)
         assert seat.present == len(there)
+
+
+def test_a_program_is_named_as_one() -> None:
+    seat = Seat()
+    seat.join(1)
+    seat.join("program 1", "a program at 127.0.0.1")
+    seat.join(2)
+    assert seat.act("program 1") == ""
+    assert seat.act(1).startswith("A program at 127.0.0.1 controls Baxter: press")
+    assert seat.role(1, 0.0) == "You watch; a program at 127.0.0.1 controls Baxter."
+    seat.ask(1, 0.0)
+    assert seat.role("program 1", 0.0).startswith("Another page asks for control")
+    assert seat.let_go("program 1")
+    assert (seat.holder, seat.present) == (1, 3)
+    assert not seat.let_go("program 1")
+    seat.ask("program 1", 0.0)
+    assert seat.role(1, 0.0).startswith("A program at 127.0.0.1 asks for control")
+    assert seat.called(None) == ""

@@ -1,4 +1,4 @@
-"""Files that a browser sends: nothing about them is believed before it is checked.
+"""Files that a browser or a program sends: nothing about them is believed before it is checked.
 
 The bytes are written under a name of our own; the file's name is for people only. What is in the
 file is for the engine's readers to tell, which go by content.
@@ -32,18 +32,28 @@ class Uploads:
         shown = shown_name(name)
         if not content:
             raise FileError(f"{shown}: the file is empty")
-        if len(content) > LARGEST:
-            raise FileError(
-                f"{shown}: {len(content) / 2**20:.0f} MB; up to {LARGEST // 2**20} MB are taken: "
-                "cut it into parts, or use the command: studio teach FILE"
-            )
+        _check_size(shown, len(content))
         path = Path(self._folder.name) / f"upload-{next(self._numbers)}"
         path.write_bytes(content)
         return path
 
+    def add(self, name: str, path: Path, content: bytes) -> None:
+        """Write more of a file that `keep` has begun at ``path``; raise FileError as it does."""
+        _check_size(shown_name(name), path.stat().st_size + len(content))
+        with path.open("ab") as file:
+            file.write(content)
+
     def close(self) -> None:
         """Delete all of them."""
         self._folder.cleanup()
+
+
+def _check_size(shown: str, size: int) -> None:
+    if size > LARGEST:
+        raise FileError(
+            f"{shown}: {size / 2**20:.0f} MB; up to {LARGEST // 2**20} MB are taken: "
+            "cut it into parts, or use the command: studio teach FILE"
+        )
 
 
 def shown_name(name: str) -> str:

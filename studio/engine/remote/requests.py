@@ -1,0 +1,190 @@
+"""Requests of programs, served: each kind by a few lines, which answer into the guest's outbox.
+
+Whoever controls may act, everybody may read.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any, Protocol
+
+import msgspec
+
+from studio.engine import commands
+from studio.engine.errors import StudioError
+from studio.engine.inbox import Answer
+from studio.engine.remote.clockwork import Clockwork
+from studio.engine.remote.guest import MOST_WAITING, Guest
+from studio.engine.remote.large import demonstration, large
+from studio.engine.remote.roles import Roles
+from studio.engine.remote.shelf import Shelf
+from studio.engine.remote.views import frame_of
+from studio.engine.remote.wire import as_command
+from studio.engine.robot import CONTROL_RATE
+from studio.engine.scene_file import scene_names
+from studio.engine.snapshot import Message, Mode, Snapshot
+from studio.remote import asked as wire
+from studio.remote import told
+from studio.remote.commands import SetJointTarget
+
+LET_GO = "The program that controlled Baxter has let go of it."
+# A program that steps faster than real time would move it faster than its limits allow.
+_REAL_TIME = "a robot beyond the simulator goes by real time"
+_CAN_BE_DRIVEN = (Mode.IDLE, Mode.TRAINING, Mode.DRIVEN)
+
+
+class Hosted(Protocol):
+    """What is needed of a session."""
+
+    snapshot: Snapshot
+
+    def post(self, command: commands.Command, answer: Answer = ...) -> None:
+        """Put a command into the inbox."""
+        ...
+
+
+class Requests:
+    """See the module; one thread uses it.
+
+    Parameters
+    ----------
+    session
+        Returns the session; raises StudioError where it has ended.
+    roles, clock, shelf
+        Who controls, who has the clock, and whose files there are.
+    later
+        Has something done on the thread that uses this; any thread may call it.
+    tick
+        The number of the newest tick.
+    refuse
+        Tells a guest why something cannot be, and which request it was.
+    """
+
+    def __init__(
+        self,
+        session: Callable[[], Hosted],
+        roles: Roles,
+        clock: Clockwork,
+        shelf: Shelf,
+        later: Callable[[Callable[[], None]], None],
+        tick: Callable[[], int],
+        refuse: Callable[[Guest, int | None, str], None],
+    ) -> None:
+        self._session, self._roles, self._clock, self._shelf = session, roles, clock, shelf
+        self._later, self._tick, self._refuse = later, tick, refuse
+        self._serving: dict[type[Any], Callable[[Guest, Any], None]] = {
+            SetJointTarget: self._target,
+            wire.Do: self._do,
+            wire.Get: self._get,
+            wire.Subscribe: self._subscribe,
+            wire.Unsubscribe: self._unsubscribe,
+            wire.Control: self._control,
+            wire.TakeClock: self._take_clock,
+            wire.Step: self._step,
+            wire.GiveClock: self._give_clock,
+            wire.Fetch: self._fetch,
+            wire.FetchDemonstration: self._fetch_demonstration,
+            wire.FetchFile: self._fetch_file,
+            wire.Upload: self._upload,
+        }
+
+    def serve(self, guest: Guest, asked: Any) -> None:
+        """Serve a request.
+
+        Raises
+        ------
+        StudioError, OSError, ValueError
+            Where it is impossible.
+        """
+        self._serving[type(asked)](guest, asked)
+
+    def let_go(self, why: str) -> None:
+        """Have Baxter let go, for a reason in words."""
+        try:
+            self._session().post(commands.LetGo(why))
+        except StudioError:  # the engine has ended before its programs
+            return
+        self._clock.nudge()
+
+    def _target(self, guest: Guest, asked: SetJointTarget) -> None:
+        self._roles.require(guest)
+        session = self._session()
+        if session.snapshot.mode not in _CAN_BE_DRIVEN:
+            raise StudioError("somebody teaches, or something plays: send stop first")
+        command = commands.SetJointTarget(asked.targets, asked.closed)
+        if guest.answer is None:  # one for all of its targets, as the inbox keeps one command
+            guest.answer = partial(self._on_thread, partial(self._targeted, guest))
+        session.post(command, guest.answer)
+
+    def _targeted(self, guest: Guest, said: Message | None) -> None:
+        if said is not None and said.is_error:
+            self._refuse(guest, None, said.text)
+
+    def _do(self, guest: Guest, asked: wire.Do) -> None:
+        self._roles.require(guest)
+        if guest.waiting >= MOST_WAITING:
+            raise StudioError(f"{MOST_WAITING} commands wait for a tick: wait for their answers")
+        session = self._session()
+        now = session.snapshot
+        command = as_command(asked.command, lambda place: self._shelf.find(guest.name, place, now))
+        if isinstance(command, commands.ConnectLink) and self._clock.owner is not None:
+            raise StudioError(f"{_REAL_TIME}: give the clock back first, then connect it")
+        if isinstance(command, commands.ChooseScene) and command.scene not in scene_names():
+            raise StudioError(
+                f"there is no scene {command.scene!r:.40}; there are {', '.join(scene_names())}"
+            )
+        guest.waiting += 1
+        session.post(command, partial(self._on_thread, partial(self._done, guest, asked.id)))
+        self._clock.nudge()
+
+    def _done(self, guest: Guest, number: int | None, said: Message | None) -> None:
+        guest.waiting -= 1
+        if said is not None and said.is_error:
+            self._refuse(guest, number, said.text)
+        elif number is not None:
+            words = "" if said is None else said.text
+            guest.outbox.answer(told.Done(id=number, words=words))
+
+    def _get(self, guest: Guest, asked: wire.Get) -> None:
+        frame = frame_of(asked.what, self._session().snapshot, self._tick())
+        guest.outbox.answer(msgspec.structs.replace(frame, id=asked.id))
+
+    def _subscribe(self, guest: Guest, asked: wire.Subscribe) -> None:
+        guest.streams[asked.stream] = max(1, round(CONTROL_RATE / asked.rate))
+        guest.outbox.answer(told.Done(id=asked.id))
+
+    def _unsubscribe(self, guest: Guest, asked: wire.Unsubscribe) -> None:
+        guest.streams.pop(asked.stream, None)
+        guest.outbox.forget(asked.stream)
+        guest.outbox.answer(told.Done(id=asked.id))
+
+    def _control(self, guest: Guest, asked: wire.Control) -> None:
+        if self._roles.take(guest, asked):
+            self.let_go(LET_GO)
+
+    def _take_clock(self, guest: Guest, asked: wire.TakeClock) -> None:
+        self._roles.require(guest)
+        if self._session().snapshot.link.url:
+            raise StudioError(f"{_REAL_TIME}: disconnect it first, then take the clock")
+        self._clock.take(guest, asked)
+
+    def _step(self, guest: Guest, asked: wire.Step) -> None:
+        self._session()
+        self._clock.step(guest, asked)
+
+    def _give_clock(self, guest: Guest, asked: wire.GiveClock) -> None:
+        self._clock.give(guest, asked.id)
+
+    def _fetch(self, guest: Guest, asked: wire.Fetch) -> None:
+        guest.outbox.answer(large(asked, self._session().snapshot))
+
+    def _fetch_demonstration(self, guest: Guest, asked: wire.FetchDemonstration) -> None:
+        guest.outbox.answer(demonstration(asked, self._session().snapshot))
+
+    def _fetch_file(self, guest: Guest, asked: wire.FetchFile) -> None:
+        guest.outbox.answer(self._shelf.part(asked, self._session().snapshot))
+
+    def _upload(self, guest: Guest, asked: wire.Upload) -> None:
+        guest.outbox.answer(self._shelf.take(guest.name, asked))
+
+    def _on_thread(self, act: Callable[[Message | None], None], said: Message | None) -> None:
+        self._later(partial(act, said))

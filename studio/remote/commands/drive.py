@@ -1,0 +1,15 @@
+"""Commands as messages. Written by docs/make_remote_schema.py: change it there."""
+
+import msgspec
+
+from studio.remote.message import Message, Text
+
+
+class SetJointTarget(Message, frozen=True):
+    """Let joints go somewhere, through limits and collision guard; the robot holds without news.
+
+    The first one begins it, slowly. None at all is a sign of life: go on with the last ones.
+    """
+
+    targets: dict[Text, float] = msgspec.field(default_factory=dict)  # [rad] by joint, as left_s0
+    closed: bool | None = None  # the grippers of the driven arms; None: as they are

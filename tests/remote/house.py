@@ -1,0 +1,112 @@
+"""A studio without a page, in this process; programs reach it from others. Nothing goes unheard."""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from studio.engine.clock import LiveLoop
+from studio.engine.live.access import Address
+from studio.engine.remote.server import RemoteServer
+from studio.engine.seat import Seat
+from studio.engine.session import Session
+from studio.engine.snapshot import Snapshot
+from studio.remote import Studio, connect
+from tests.remote.overheard import Overheard
+
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 30.0  # [s] for a busy machine
+
+
+@dataclass
+class House:
+    loop: LiveLoop
+    seat: Seat
+    server: RemoteServer
+    overheard: Overheard
+    folder: Path
+    programs: list[subprocess.Popen[str]] = field(default_factory=list)
+
+    @property
+    def url(self) -> str:
+        return self.server.address.url
+
+    @property
+    def now(self) -> Snapshot:
+        return self.loop.session.snapshot
+
+    def connect(self, **options) -> Studio:
+        return connect(self.url, **options)
+
+    def start(self, *command: str | Path, **environment: str) -> subprocess.Popen[str]:
+        """Start a program; it is gone when the house is closed."""
+        here = {"PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
+        program = subprocess.Popen(
+            [*map(str, command)],
+            env={**os.environ, **here, **environment},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=self.folder,
+        )
+        self.programs.append(program)
+        return program
+
+    def run(self, *command: str | Path, **environment: str) -> str:
+        """Run a program to its end and return what it printed."""
+        program = self.start(*command, **environment)
+        printed, said = program.communicate(timeout=120.0)
+        assert program.returncode == 0, (printed, said)
+        return printed
+
+    def run_python(self, file: Path, *arguments: str | Path) -> str:
+        return self.run(sys.executable, "-W", "error", file, *arguments, "--url", self.url)
+
+
+@contextmanager
+def open_house(folder: Path, speed: float = 1.0, token: str | None = None) -> Iterator[House]:
+    """A studio that is reached by programs; in the end all that was said has to be documented."""
+    overheard, seat = Overheard(), Seat()
+    with ExitStack() as stack:
+        loop = stack.enter_context(LiveLoop(lambda: Session(folder), speed))
+        address = Address("127.0.0.1", 0)
+        server = stack.enter_context(RemoteServer(loop, seat, address, token, overheard))
+        house = House(loop, seat, server, overheard, folder)
+        stack.callback(_end, house)
+        yield house
+    assert overheard.check() > 0
+
+
+def _end(house: House) -> None:
+    for program in house.programs:
+        with suppress(ProcessLookupError):
+            program.kill()
+        program.communicate()
+
+
+def eventually(reached: Callable[[], object], seconds: float = PATIENCE) -> None:
+    deadline = time.monotonic() + seconds
+    while not reached():
+        assert time.monotonic() < deadline, "it never came to that"
+        time.sleep(0.01)
+
+
+def goes_on(house: House) -> bool:
+    """Whether ticks come by themselves."""
+    before = house.now.world.time
+    time.sleep(0.2)
+    return house.now.world.time > before
+
+
+def stands_still(house: House) -> bool:
+    """Whether the robot's joints rest, for a quarter of a second of the session's ticks."""
+    before = house.now
+    eventually(lambda: house.now.world.time - before.world.time > 0.25)
+    moved = house.now.world.joint_positions - before.world.joint_positions
+    return float(np.abs(moved).max()) < 1e-3
