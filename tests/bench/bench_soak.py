@@ -34,6 +34,7 @@ from studio.engine.live.listener import Listener
 from studio.engine.live.source import LiveSource
 from studio.engine.session import Session
 from studio.engine.work import Work
+from studio.heap import share_heaps
 from studio.panels.app import App
 from tests.browser.conftest import FLAGS, NAMES
 from tests.browser.opened import PLAIN, SMALL
@@ -54,6 +55,7 @@ DONE = "that was all"
 
 def serve(folder: Path, seed: int) -> None:
     """Serve the studio and ask it for anything, until standard input ends; then tell the sums."""
+    share_heaps()
     safe, made = folder / "safe", folder / "recordings"
     safe.mkdir()
     made.mkdir()
