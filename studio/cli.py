@@ -15,19 +15,22 @@ from studio.convert_command import Convert
 from studio.engine.errors import StudioError
 from studio.engine.experiment import Setup, run_experiment
 from studio.engine.hands import HandOptions
-from studio.engine.live.access import Address
 from studio.engine.mcap_file import write_recording
 from studio.engine.recording import Recording
 from studio.engine.report import as_json, as_text
-from studio.engine.resources import recordings_folder
+from studio.engine.scene import DEFAULT_SCENE
+from studio.engine.scene_file import read_scene
 from studio.engine.sources import SkeletonRecording
 from studio.engine.sources.demonstrator import demonstrate
 from studio.engine.tape import next_recording_path
 from studio.engine.teaching import LearnerName, LearnerSettings
+from studio.evaluate_command import Evaluate
 from studio.export_command import Export
 from studio.inspect_command import Inspect
+from studio.link_command import Link
 from studio.live_commands import Listen, Play
-from studio.stream_token import stream_token
+from studio.scene_option import SceneFlag
+from studio.serve_command import Serve
 from studio.sweep_command import Sweep
 from studio.webcam_command import Webcam
 
@@ -41,11 +44,6 @@ GripperFlag = Annotated[
         "that is taught."
     ),
 ]
-# The help is that of --no-browser, the only way to say it.
-BrowserFlag = Annotated[
-    bool,
-    tyro.conf.arg(help="Only print the page's address, open no browser.", help_behavior_hint=""),
-]
 WristFlag = Annotated[
     Literal["zero", "level", "follow"],
     tyro.conf.arg(
@@ -53,35 +51,6 @@ WristFlag = Annotated[
         "where the person's hand does."
     ),
 ]
-
-
-@dataclass(frozen=True)
-class Serve:
-    """Open the studio in the browser (what plain `studio` does)."""
-
-    host: str = "127.0.0.1"
-    """Address to listen on. Anything but loopback lets others in, without a password."""
-    port: int = 8080
-    """Port to listen on; the next free one if it is taken."""
-    recordings: Path | None = None
-    """Folder for new recordings. In a clone its recordings folder, else the user's data folder."""
-    browser: BrowserFlag = True
-    listen: str | None = None
-    """HOST:PORT to take live streams at, 127.0.0.1:8765 or the next free port by default. Beyond
-    this machine it needs a token."""
-    token: str | None = None
-    """What publishers have to present: ws://...?token=TOKEN or Authorization: Bearer TOKEN. Better
-    set STUDIO_TOKEN: other users of this machine can read what is typed here."""
-
-    def run(self) -> int:
-        """Serve until interrupted."""
-        from studio.live import Streams, serve_studio  # noqa: PLC0415 - headless needs no viser
-
-        folder = self.recordings or recordings_folder()
-        address = None if self.listen is None else Address.parse(self.listen)
-        streams = Streams(address, stream_token(self.token))
-        serve_studio(self.host, self.port, folder, self.browser, streams)
-        return 0
 
 
 @dataclass(frozen=True)
@@ -105,6 +74,7 @@ class Demo:
     """Seed of the demonstrator; the same seed gives the same numbers."""
     interpolation: Interpolation = "even"
     """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
+    scene: SceneFlag = DEFAULT_SCENE
     gripper: GripperFlag = False
     wrist: WristFlag = "zero"
     save: Path | None = None
@@ -126,10 +96,11 @@ class Demo:
             self.interpolation,
             self.seed,
             hands=HandOptions(self.gripper, self.wrist),
-        )
+        ).in_scene(read_scene(self.scene))
         if self.headless:
             return self._run_experiment(setup)
-        from studio.live import serve_until_interrupted, shown_demo  # noqa: PLC0415 - as above
+        from studio.live import shown_demo  # noqa: PLC0415 - headless needs no viser
+        from studio.running import serve_until_interrupted  # noqa: PLC0415 - nor this
 
         with shown_demo(self.port, setup, self.demonstrations):
             status = self._run_experiment(setup)
@@ -137,7 +108,8 @@ class Demo:
         return status
 
     def _run_experiment(self, setup: Setup) -> int:
-        takes = [demonstrate(self.seed, take) for take in range(1, self.demonstrations + 1)]
+        count, scene = self.demonstrations, setup.scene
+        takes = [demonstrate(self.seed, take, scene=scene) for take in range(1, count + 1)]
         return _experiment(takes, setup, self.json, self.save)
 
     def _learner(self) -> LearnerSettings:
@@ -170,6 +142,7 @@ class Teach:
     fails."""
     interpolation: Interpolation = "even"
     """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
+    scene: SceneFlag = DEFAULT_SCENE
     gripper: GripperFlag = False
     wrist: WristFlag = "zero"
     save: Path | None = None
@@ -191,7 +164,7 @@ class Teach:
             mirrored=self.mirror,
             calibrate_at=self.calibrate_at,
             hands=HandOptions(self.gripper, self.wrist),
-        )
+        ).in_scene(read_scene(self.scene))
         return _experiment(self.files, setup, self.json, self.save)
 
 
@@ -200,24 +173,28 @@ Command = (
     | Annotated[Demo, tyro.conf.subcommand("demo")]
     | Annotated[Teach, tyro.conf.subcommand("teach")]
     | Annotated[Sweep, tyro.conf.subcommand("sweep")]
+    | Annotated[Evaluate, tyro.conf.subcommand("evaluate")]
     | Annotated[Inspect, tyro.conf.subcommand("inspect")]
     | Annotated[Convert, tyro.conf.subcommand("convert")]
     | Annotated[Export, tyro.conf.subcommand("export")]
     | Annotated[Webcam, tyro.conf.subcommand("webcam")]
     | Annotated[Listen, tyro.conf.subcommand("listen")]
     | Annotated[Play, tyro.conf.subcommand("play")]
+    | Annotated[Link, tyro.conf.subcommand("link")]
 )
 COMMANDS = (
     "serve",
     "demo",
     "teach",
     "sweep",
+    "evaluate",
     "inspect",
     "convert",
     "export",
     "webcam",
     "listen",
     "play",
+    "link",
 )
 
 

@@ -1,13 +1,11 @@
 """The studio with its browser: the engine's live loop, and the panels hung on it."""
 
 import os
-import sys
 import tempfile
 import time
 import webbrowser
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 from studio.engine import commands
@@ -15,55 +13,27 @@ from studio.engine.choices import Choices
 from studio.engine.clock import LiveLoop, now
 from studio.engine.errors import StudioError
 from studio.engine.experiment import Setup
-from studio.engine.live.access import Address
-from studio.engine.live.listener import Listener
-from studio.engine.live.source import LiveSource
-from studio.engine.resources import samples_folder
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.work import Work
 from studio.panels.app import App
+from studio.running import Doors, running, say, serve_until_interrupted
 
 
-@dataclass(frozen=True)
-class Streams:
-    """Where live streams are taken."""
-
-    address: Address | None = None  # None: on this machine, at the first free port from the usual
-    token: str | None = None
-
-
-def serve_studio(host: str, port: int, recordings: Path, browser: bool, streams: Streams) -> None:
+def serve_studio(host: str, port: int, recordings: Path, browser: bool, doors: Doors) -> None:
     """Serve the studio with the samples loaded until interrupted.
 
     Raises
     ------
     StudioError
-        Where live streams can't be taken at the address asked for.
+        Where it can't be reached at an address that was asked for.
     """
-    live = LiveSource(now)
-    listener = Listener(
-        live, streams.address or Address(), streams.token, next_free=streams.address is None
-    )
     with (
-        listener,
-        LiveLoop(lambda: Session(recordings, live=live, work=Work(now))) as loop,
-        App(loop, host, port) as app,
+        running(recordings, doors) as engine,
+        App(engine.loop, host, port, seat=engine.seat) as app,
     ):
-        for sample in sorted(samples_folder().glob("*.mcap")):
-            loop.session.post(commands.UseFile(sample))
-        print(f"Live streams are taken at {listener.address.url}", flush=True)
         _announce(app.url, browser)
         serve_until_interrupted()
-
-
-def serve_until_interrupted() -> None:
-    """Wait for Ctrl-C, which is how a server ends, while the other threads serve."""
-    try:
-        while True:
-            time.sleep(3600.0)
-    except KeyboardInterrupt:
-        _say("closing")
 
 
 @contextmanager
@@ -83,14 +53,15 @@ def shown_demo(port: int, setup: Setup, demonstrations: int) -> Iterator[None]:
             _announce(app.url, browser=True)
             session = loop.session
             choices = Choices(setup.arms, setup.mapping, setup.gate, setup.mirrored, setup.hands)
+            session.post(commands.ChooseScene(setup.scene))
             session.post(commands.Configure(choices))
             for take in range(1, demonstrations + 1):
-                _say(f"the demonstrator teaches, {take} of {demonstrations}")
+                say(f"the demonstrator teaches, {take} of {demonstrations}")
                 session.post(commands.UseDemonstrator())
                 session.post(commands.Record())
                 _wait_for(loop, lambda now: now.mode is Mode.RECORDING)
                 _wait_for(loop, lambda now: now.mode is not Mode.RECORDING)
-            _say("Baxter does it alone")
+            say("Baxter does it alone")
             session.post(commands.Train(setup.learner))
             _wait_for(loop, lambda now: now.lesson is not None)
             session.post(commands.PlayReproduction())
@@ -110,7 +81,3 @@ def _announce(url: str, browser: bool) -> None:
     # Without a display the standard library would open a text browser in this very terminal.
     if browser and (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         webbrowser.open(url)
-
-
-def _say(text: str) -> None:
-    print(f"studio: {text}", file=sys.stderr, flush=True)

@@ -8,6 +8,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 MODULES = sorted((ROOT / "studio").rglob("*.py"))
+# The simulated world, and the robot in it: whoever imports them must be the thread that owns it.
+PHYSICS = ("studio/engine/world.py", "studio/engine/world_robot.py")
 
 
 def imports(path: Path) -> Iterator[str]:
@@ -34,13 +36,15 @@ def test_layers(path: Path) -> None:
     for name in imports(path):
         if place.startswith("studio/rbf/"):
             assert not within(name, "studio") or within(name, "studio.rbf")
+        if place.startswith("studio/remote/"):
+            assert not within(name, "studio") or within(name, "studio.remote")
         if place.startswith("studio/engine/"):
             assert not within(name, "viser", "studio.panels", "studio.live", "studio.cli")
         if place.startswith("studio/panels/"):
             assert not within(name, "studio.live", "studio.cli")
         else:
             assert not within(name, "viser")
-        if place != "studio/engine/world.py":
+        if place not in PHYSICS:
             assert not within(name, "pybullet", "pybullet_data")
         if place != "studio/engine/parallel.py":  # joblib there runs tasks, and loads no file
             assert not within(name, "joblib")
@@ -52,6 +56,14 @@ def test_rbf_knows_numpy_and_scipy_only() -> None:
 
     allowed = {*sys.stdlib_module_names, "numpy", "scipy", "studio"}
     for path in (ROOT / "studio" / "rbf").rglob("*.py"):
+        assert {name.split(".")[0] for name in imports(path)} <= allowed
+
+
+def test_a_program_needs_two_packages_and_nothing_of_the_engine() -> None:
+    import sys  # noqa: PLC0415
+
+    allowed = {*sys.stdlib_module_names, "msgspec", "websockets", "studio"}
+    for path in (ROOT / "studio" / "remote").rglob("*.py"):
         assert {name.split(".")[0] for name in imports(path)} <= allowed
 
 

@@ -61,6 +61,17 @@ def test_the_headless_demo_prints_one_object_and_the_same_one(tmp_path: Path) ->
     assert list(tmp_path.iterdir()) == []
 
 
+def test_another_scene_is_asked_for_by_its_name(tmp_path: Path) -> None:
+    command = ("demo", "--headless", "--json", "--demonstrations", "1", "--scene")
+    found = json.loads(studio(*command, "two-in-order", cwd=tmp_path).stdout)
+    assert found["scene"] == "two-in-order"
+    assert found["reproduction"]["task_done"] is True
+    assert found["reproduction"]["missing"] == ""
+    refused = studio(*command, "two-in-a-row", cwd=tmp_path)
+    assert refused.returncode == 1
+    assert "two-in-order" in json.loads(refused.stdout)["error"]
+
+
 def test_teaching_from_the_samples(tmp_path: Path) -> None:
     samples = sorted(samples_folder().glob("*.mcap"))
     assert len(samples) == 4

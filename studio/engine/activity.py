@@ -14,11 +14,12 @@ from studio.engine.performance import start_world
 from studio.engine.pipeline import Pipeline
 from studio.engine.recording import RecordingInfo, Sample
 from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
+from studio.engine.scene import USUAL, Scene
 from studio.engine.skeleton import Skeleton
 from studio.engine.snapshot import Mode
 from studio.engine.tape import NO_PLAN, Plan, Tape
 from studio.engine.teachers import Teacher
-from studio.engine.world import Scene, World
+from studio.engine.world import World
 
 REST = 1.0  # [s] after a demonstration, in which the block falls or stays
 
@@ -69,7 +70,10 @@ class Hold:
 
 
 class Follow:
-    """Let the robot follow a teacher, recording it if a path is given."""
+    """Let the robot follow a teacher, recording it if a path is given.
+
+    ``scene`` is what stands around, ``usual`` the same before anybody moved a block.
+    """
 
     def __init__(
         self,
@@ -78,10 +82,11 @@ class Follow:
         path: Path | None,
         scene: Scene | None = None,
         plan: Plan = NO_PLAN,
+        usual: Scene = USUAL,
     ) -> None:
         self.teacher = teacher
         self.time, self.duration = 0.0, teacher.seconds
-        self.info = RecordingInfo.of(pipeline, teacher)
+        self.info = RecordingInfo.of(pipeline, teacher, usual)
         self.newest: Sample | None = None
         self.skeleton: Skeleton | None = None  # the newest one
         self.tape = None if path is None else Tape(path, self.info, plan)

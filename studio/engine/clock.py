@@ -9,6 +9,8 @@ from studio.engine.errors import StudioError
 from studio.engine.pace import Pace
 from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
 from studio.engine.session import Session
+from studio.engine.snapshot import Snapshot
+from studio.engine.stepping import Steps
 
 now = time.monotonic  # [s], for whoever is given a clock
 BADLY_LATE = 5 * CONTROL_PERIOD  # [s]; behind by more, the loop skips ahead instead of racing
@@ -29,11 +31,13 @@ class LiveLoop:
     Drift-free: each tick is due one period after the last one was *due*. A live frame that the
     session awaits brings its tick forward, within its own period, so that frames hardly wait and
     ticks are still 30 a second. ``pace`` says how well it keeps up. ``speed`` makes the session's
-    time pass faster than the clock's. A context manager.
+    time pass faster than the clock's. Where a program has the clock (``steps``), ticks come as it
+    asks for them. A context manager.
     """
 
     def __init__(self, build: Callable[[], Session], speed: float = 1.0) -> None:
-        self.pace = Pace()
+        self.pace, self.steps = Pace(), Steps(now)
+        self._watchers: tuple[Callable[[Snapshot], None], ...] = ()
         self._due: deque[int] = deque([0], _LATELY)  # for each tick of late: how many were due
         self._period = CONTROL_PERIOD / speed  # [s] of the clock
         self._build = build
@@ -54,6 +58,10 @@ class LiveLoop:
         if self._built is None or self._failure is not None:
             raise StudioError("the engine is not running") from self._failure
         return self._built
+
+    def watch(self, watcher: Callable[[Snapshot], None]) -> None:
+        """Tell ``watcher`` every tick's snapshot, on the loop's thread: it must be quick."""
+        self._watchers = (*self._watchers, watcher)
 
     def __enter__(self) -> "LiveLoop":
         self._thread.start()
@@ -85,12 +93,19 @@ class LiveLoop:
     def _tick_until_stopped(self, session: Session) -> None:
         due = now()
         while self._wait_for_tick(session, due):
-            session.tick()
+            self._tell(session.tick())
+            if self.steps.is_held:
+                self.steps.run(session, self._stopping, self._tell)
+                due = now()
             due += self._period
             late = now() - due
             missed = int(late / self._period) if late > BADLY_LATE else 0
             due += missed * self._period
             self._note(missed)
+
+    def _tell(self, snapshot: Snapshot) -> None:
+        for watcher in self._watchers:
+            watcher(snapshot)
 
     def _note(self, missed: int) -> None:
         """Take note of a tick, and of those that were given up after it."""

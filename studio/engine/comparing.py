@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from studio.engine import commands
 from studio.engine.activity import Activity, Hold
-from studio.engine.arms import Arms
 from studio.engine.choices import Choices
 from studio.engine.compare_status import Alone, CompareStatus, TimelineStatus, named
 from studio.engine.demonstration import DemonstrationSet
@@ -18,6 +17,7 @@ from studio.engine.measured import Measured, measure_demonstration, measure_perf
 from studio.engine.performance import Performance, in_guards_words
 from studio.engine.scene import Scene
 from studio.engine.showing import Show, tuned
+from studio.engine.task_words import task_words
 from studio.engine.teaching import Lesson, Reproduction
 from studio.engine.timeline import Timeline
 from studio.engine.world import World
@@ -38,13 +38,15 @@ class Comparing:
     def __init__(self) -> None:
         self.timeline = Timeline()  # whose speed and loop the next show takes over
         self.kept: Lesson | None = None
-        self._place: tuple[float, float] | None = None  # [m] the block's in the world, if moved
+        self._places: dict[int, tuple[float, float]] = {}  # [m] in the world, of moved blocks
         self._done: list[_Done] = []  # of the newest lesson and the kept one, oldest first
         self._field = FieldView()
         self._table: dict[tuple[object, ...], Measured] = {}  # by what is measured
 
-    def take(self, command: commands.CompareCommand, lesson: Lesson | None, arms: Arms) -> str:
-        """Do what is asked, with what is learned now and the arms that are taught.
+    def take(
+        self, command: commands.CompareCommand, lesson: Lesson | None, choices: Choices
+    ) -> str:
+        """Do what is asked, with what is learned now and how Baxter is taught.
 
         Raises
         ------
@@ -52,12 +54,13 @@ class Comparing:
             Where it can't be done.
         """
         match command:
-            case commands.PlaceBlock(x, y):
-                placed = Scene(arms=arms).with_block_at(x, y)
-                self._place = placed.placed_blocks[0].position[:2]
+            case commands.PlaceBlock(x, y, block):
+                placed = self.scene(choices).with_block_at(x, y, block)
+                at_x, at_y, _ = placed.placed_blocks[block].position
+                self._places[block] = (at_x, at_y)
                 return "The block stands elsewhere now. Let Baxter do it alone, and watch."
             case commands.PutBlockBack():
-                self._place = None
+                self._places = {}
                 return "The block stands where it was taught again."
             case commands.KeepToCompare():
                 return self._keep(lesson)
@@ -104,22 +107,27 @@ class Comparing:
         return None
 
     def forget(self) -> None:
-        """Forget all that belongs to other arms or joints."""
-        self.kept, self._place, self._done = None, None, []
+        """Forget all that belongs to other arms, joints or scenes."""
+        self.kept, self._places, self._done = None, {}, []
 
     def start_world(self, choices: Choices) -> World:
         """Return a fresh world in which the robot waits, the block where it was put."""
-        return choices.start_world(self.scene(choices.arms))
+        return choices.start_world(self.scene(choices))
 
-    def scene(self, arms: Arms) -> Scene:
-        """Return what stands around the robot, the block where it was put."""
-        usual = Scene(arms=arms)
-        return usual if self._place is None else usual.with_block_at(*self._place)
+    def scene(self, choices: Choices) -> Scene:
+        """Return what stands around the robot, the blocks where they were put."""
+        return self._moved(choices.placed_scene)
+
+    def _moved(self, scene: Scene) -> Scene:
+        for block, (x, y) in self._places.items():
+            scene = scene.with_block_at(x, y, block)
+        return scene
 
     def judge(self, film: Film, learning: Learning) -> str:
         """Take note of a film that is through; return in words what became of the block."""
         if not isinstance(film, LessonFilm):
-            return down_or_not(film.at(film.duration).world.block_down)
+            last = film.at(film.duration).world
+            return task_words(film.scene).told(last.done, last.missing)
         for solo in film.solos:
             if solo.performance is not None:
                 self._note(_Done(solo.lesson, solo.scene, solo.performance), film.lesson)
@@ -145,7 +153,7 @@ class Comparing:
             playing=tuple(Alone(solo.lesson, solo.performance) for solo in solos),
             beside=show.seen.beside if show else None,
             kept=self.kept,
-            moved=self._place is not None,
+            moved=bool(self._places),
             table=self._measured(lesson, _ghost(listed)),
             field=self._field.look_at(lesson),
         )
@@ -155,7 +163,7 @@ class Comparing:
         lesson = learning.lesson
         if lesson is None:
             raise StudioError("Train first: there is nothing learned to play")
-        scene, lessons = self.scene(lesson.taught.arms), [lesson]
+        scene, lessons = self._moved(lesson.taught.scene), [lesson]
         if self.kept is not None and self.kept is not lesson:
             lessons.append(self.kept)
         solos = [Solo(each, scene, self._known(each, scene)) for each in lessons]
@@ -164,12 +172,11 @@ class Comparing:
         return LessonFilm(solos, _ghost(listed))
 
     def _learn_of_trial(self, lesson: Lesson | None, found: Reproduction | None) -> None:
-        """Take note of what a lesson came to in a trial, which knows the usual scene only."""
+        """Take note of what a lesson came to in a trial, in which no block was moved."""
         if lesson is None or found is None:
             return
         if not any(each.performance is found.performance for each in self._done):
-            usual = Scene(arms=lesson.taught.arms)
-            self._note(_Done(lesson, usual, found.performance), lesson)
+            self._note(_Done(lesson, lesson.taught.scene, found.performance), lesson)
 
     def _note(self, done: _Done, newest: Lesson) -> None:
         """Take note of what is over as the newest, and forget what nobody compares any more."""
@@ -225,7 +232,8 @@ class Comparing:
 
 def _told(solo: Solo, end: float) -> str:
     """Return in words what became of the block, and what kept the robot from what was asked."""
-    words = down_or_not(solo.at(end)[0].block_down)
+    last = solo.at(end)[0]
+    words = task_words(solo.scene).told(last.done, last.missing)
     kept = "" if solo.performance is None else in_guards_words(solo.performance)
     return f"{words} {kept}" if kept else words
 
@@ -240,8 +248,3 @@ def _is_outdated(activity: Activity, learning: Learning) -> bool:
 
 def _ghost(listed: Listed) -> Take | None:
     return listed.entry(listed.chosen).take if listed.entries else None
-
-
-def down_or_not(down: bool) -> str:
-    """Return in words what became of the block."""
-    return "The block is down." if down else "The block stands."

@@ -11,6 +11,7 @@ from studio.engine.demonstration import DemonstrationSet
 from studio.engine.export.equation import Equation
 from studio.engine.export.equations import learned_numbers
 from studio.engine.sweep import Sweep, Timer, checked_neurons, sweep
+from studio.engine.task_words import BLOCK, TaskWords, task_words
 from studio.engine.teaching import (
     LEARNERS,
     LearnerName,
@@ -51,6 +52,8 @@ class BlockPoint:
     block_down: bool
     mse: float  # [rad²] mean over joints and demonstrations
     hand_error: float  # [m] mean distance of the hand from the mean demonstration as sent
+    done: bool = False  # the scene's task; of the paper's: block_down
+    task: TaskWords = BLOCK  # how one says that
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,4 +216,6 @@ def block_point_of(lesson: Lesson, found: Reproduction) -> BlockPoint:
         block_down=found.performance.block_down,
         mse=float(lesson.mse.mean()),
         hand_error=found.deviation.hand_mean,
+        done=found.performance.done,
+        task=task_words(lesson.taught.scene),
     )

@@ -17,6 +17,7 @@ from studio.engine.errors import NothingTaughtError, StudioError
 from studio.engine.hands import PLAIN, HandOptions, HandTrack
 from studio.engine.recording import Recording, Sample
 from studio.engine.retarget import DRIVEN_JOINTS, Mapping
+from studio.engine.scene import USUAL, Scene
 from studio.engine.skeleton import FloatArray
 
 SAMPLES = 142  # in each demonstration, the paper's Section IV-A
@@ -36,6 +37,7 @@ class Demonstration:
     first_sample: int  # in its recording
     last_sample: int
     hands: HandTrack | None = None  # what wrists and grippers did meanwhile, if they did anything
+    scene: Scene = USUAL  # in which it was taught
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -88,10 +90,8 @@ def demonstrations_of(recording: Recording, name: str) -> list[Demonstration]:
             sent = np.array([sample.sent[columns] for sample in stretch])
             label = name if not found else f"{name} ({len(found) + 1})"
             times -= times[0]
-            hands = _hands(info.hands, times, stretch)
-            found.append(
-                Demonstration(label, info.arms, info.mapping, times, sent, arrived, last, hands)
-            )
+            hands, how = _hands(info.hands, times, stretch), (info.arms, info.mapping)
+            found.append(Demonstration(label, *how, times, sent, arrived, last, hands, info.scene))
     return found
 
 
@@ -155,7 +155,7 @@ class DemonstrationSet:
         NothingTaughtError
             Where there is none.
         StudioError
-            Where they differ in arm or mapping: they cannot be one motion.
+            Where they differ in arm, mapping or scene: they cannot be one motion.
         """
         if not demonstrations:
             raise NothingTaughtError("there is no demonstration to learn from")
@@ -166,6 +166,11 @@ class DemonstrationSet:
                     f"{other.name} was taught with {in_words(other.arms)} and the {other.mapping} "
                     f"mapping, {first.name} with {in_words(first.arms)} and the {first.mapping} "
                     "mapping: learn from one kind at a time"
+                )
+            if other.scene.name != first.scene.name:
+                raise StudioError(
+                    f"{other.name} was taught in the scene {other.scene.name}, {first.name} in "
+                    f"{first.scene.name}: learn from one scene at a time"
                 )
         rng = np.random.default_rng(seed)
         rows = np.stack([resample(each, interpolation, rng) for each in demonstrations])
@@ -182,6 +187,11 @@ class DemonstrationSet:
         tracks = [each.hands for each in self.demonstrations if each.hands is not None]
         tracks = [each for each in tracks if each.options == tracks[0].options]
         return HandTrack.mean(tracks, self.duration, SAMPLES) if tracks else None
+
+    @property
+    def scene(self) -> Scene:
+        """The scene in which it was taught, for its arms."""
+        return self.demonstrations[0].scene.taught_by(self.arms)
 
     @property
     def mapping(self) -> Mapping:

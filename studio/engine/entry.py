@@ -13,6 +13,8 @@ from studio.engine.quality import Flag
 from studio.engine.recording import Recording
 from studio.engine.retarget import Mapping
 from studio.engine.robot import CONTROL_PERIOD
+from studio.engine.scene import DEFAULT_SCENE
+from studio.engine.task_words import TaskWords, task_words
 
 LONGEST_NAME = 60  # characters
 
@@ -59,8 +61,18 @@ class Entry:
 
     @property
     def block_down(self) -> bool:
-        """Whether the block was down at the recording's end."""
+        """Whether the scene's first block was down at the recording's end."""
         return self.recording.samples[-1].world.block_down
+
+    @property
+    def done(self) -> bool:
+        """Whether the scene's task was done at the recording's end."""
+        return self.recording.samples[-1].world.done
+
+    @property
+    def task(self) -> TaskWords:
+        """How one says that."""
+        return task_words(self.demonstration.scene)
 
     @property
     def span(self) -> tuple[float, float]:
@@ -74,13 +86,15 @@ class Entry:
         """Whether anything of the whole was taken off."""
         return len(self.demonstration.times) < len(self.whole.times)
 
-    def is_of(self, arms: Arms, mapping: Mapping) -> bool:
-        """Tell whether it was taught with these arms and this mapping."""
-        return (self.demonstration.arms, self.demonstration.mapping) == (arms, mapping)
+    def is_of(self, arms: Arms, mapping: Mapping, scene: str = DEFAULT_SCENE) -> bool:
+        """Tell whether it was taught with these arms and this mapping, in that scene."""
+        shown = self.demonstration
+        return (shown.arms, shown.mapping, shown.scene.name) == (arms, mapping, scene)
 
     def is_alike(self, other: "Entry") -> bool:
-        """Tell whether both were taught with the same arms and mapping: they may be one motion."""
-        return self.is_of(other.demonstration.arms, other.demonstration.mapping)
+        """Tell whether arms, mapping and scene of both are the same: they may be one motion."""
+        shown = other.demonstration
+        return self.is_of(shown.arms, shown.mapping, shown.scene.name)
 
     def renamed(self, name: str) -> "Entry":
         """Return it under another name; raise StudioError where that cannot be shown in a line."""

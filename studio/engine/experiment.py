@@ -24,6 +24,7 @@ from studio.engine.pipeline import Pipeline
 from studio.engine.recording import Recording, RecordingInfo
 from studio.engine.retarget import Mapping
 from studio.engine.robot import load_robot
+from studio.engine.scene import USUAL, Scene
 from studio.engine.sources import SkeletonRecording, read_skeletons
 from studio.engine.teaching import (
     LearnerSettings,
@@ -49,6 +50,13 @@ class Setup:
     mirrored: bool = False
     calibrate_at: float | None = None  # [s] into each file, where the neutral pose begins
     hands: HandOptions = PLAIN
+    scene: Scene = USUAL
+
+    def in_scene(self, scene: Scene) -> "Setup":
+        """Return the same in another scene, with the arms and the hands that it takes."""
+        arms = "both" if scene.both_arms else self.arms
+        hands = HandOptions(gripper=True, wrist=scene.wrist) if scene.gripper else self.hands
+        return replace(self, arms=arms, hands=hands, scene=scene)
 
 
 @dataclass(frozen=True)
@@ -145,7 +153,7 @@ def teach(
 def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, FileOutcome]:
     """Return what was sent: as it was recorded, or by following the skeletons now.
 
-    A recording that was made in another way (arms, mirroring, mapping, gate, calibration) is
+    A recording that was made in another way (arms, mirroring, mapping, gate, calibration, scene) is
     followed anew, from its raw skeletons; its own calibration then holds unless one is asked for.
     """
     warning, calibration = "", None
@@ -171,16 +179,24 @@ def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, F
         setup.mirrored,
         calibration,
         setup.hands,
+        setup.scene,
     )
-    followed = replace(follow(stream, pipeline), warning=warning)
+    followed = replace(follow(stream, pipeline, setup.scene), warning=warning)
     outcome = _outcome(stream.path, stream.format, ticks_of(stream.frame_times).tolist(), followed)
     return followed, replace(outcome, has_hand_states=stream.has_hand_states)
 
 
 def _made_so(info: RecordingInfo, setup: Setup) -> bool:
     """Tell whether a recording was made the way that is asked for now."""
-    made = (info.arms, info.mapping, info.gate, info.mirrored, info.hands)
-    asked = (setup.arms, setup.mapping, setup.gate, setup.mirrored, setup.hands)
+    made = (info.arms, info.mapping, info.gate, info.mirrored, info.hands, info.scene.name)
+    asked = (
+        setup.arms,
+        setup.mapping,
+        setup.gate,
+        setup.mirrored,
+        setup.hands,
+        setup.scene.name,
+    )
     return made == asked and setup.calibrate_at is None
 
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from studio.engine.choices import Choices
-from studio.engine.commands import Command, Configure
+from studio.engine.commands import ChooseScene, Command, Configure
 from studio.engine.commands.export import CancelExport, Export, ExportCommand, OpenSession
 from studio.engine.errors import StudioError
 from studio.engine.experiment import Setup
@@ -99,7 +99,9 @@ class Exporting:
             return self._adopt(waiting, choices)
         self._opened = self._opening.poll()
         if self._opened is not None:
-            self._post(Configure(choices_of(self._opened.material.setup, choices)))
+            setup = self._opened.material.setup
+            self._post(ChooseScene(setup.scene))
+            self._post(Configure(choices_of(setup, choices)))
             return ""
         return self._ended() if self._running and not self._results.empty() else ""
 
@@ -186,6 +188,7 @@ def setup_of(choices: Choices, learner: LearnerSettings, seed: int) -> Setup:
         seed=seed,
         mirrored=choices.mirrored,
         hands=choices.hands,
+        scene=choices.scene,
     )
 
 
@@ -198,6 +201,7 @@ def choices_of(setup: Setup, before: Choices) -> Choices:
         gate=setup.gate,
         mirrored=setup.mirrored,
         hands=setup.hands,
+        scene=setup.scene,
     )
 
 

@@ -43,6 +43,11 @@ class Film(Protocol):
     motion: float  # [s] of it, before everything settles
 
     @property
+    def scene(self) -> Scene:
+        """What stands around the first robot, for its arms."""
+        ...
+
+    @property
     def world(self) -> World | None:
         """Where the first robot is simulated, if it has to be."""
         ...
@@ -81,6 +86,7 @@ class DemonstrationFilm:
 
     def __init__(self, take: Take) -> None:
         self.take, self.title = take, take.demonstration.name
+        self.scene = take.demonstration.scene.taught_by(take.demonstration.arms)
         self.words = f"{self.title}, as it was recorded."
         self.motion = take.demonstration.duration
         samples, first = take.recording.samples, take.demonstration.first_sample
@@ -161,6 +167,11 @@ class LessonFilm:
     def lesson(self) -> Lesson:
         """What the first robot learned."""
         return self.solos[0].lesson
+
+    @property
+    def scene(self) -> Scene:
+        """What stands around the first robot."""
+        return self.solos[0].scene
 
     @property
     def world(self) -> World | None:

@@ -57,16 +57,16 @@ class Curve:
 
 @dataclass(frozen=True)
 class Tried:
-    """Whether the block falls with one network, and what somebody had said."""
+    """Whether the task gets done with one network, and what somebody had said."""
 
     learner: LearnerName
     point: BlockPoint
-    guess: bool | None  # that it falls; None where it was revealed
+    guess: bool | None  # that it does; None where it was revealed
 
     @property
     def right(self) -> bool:
         """Whether somebody guessed, and guessed right."""
-        return self.guess == self.point.block_down
+        return self.guess == self.point.done
 
 
 @dataclass(eq=False)

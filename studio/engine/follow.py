@@ -13,6 +13,7 @@ from studio.engine.performance import send, start_world
 from studio.engine.pipeline import Outcome, Pipeline
 from studio.engine.recording import Recording, RecordingInfo, Sample
 from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
+from studio.engine.scene import USUAL, Scene
 from studio.engine.skeleton import FloatArray, Skeleton
 from studio.engine.sources import SkeletonRecording
 from studio.engine.world import World
@@ -73,8 +74,8 @@ def follow_steps(
         yield Sample.of(time, skeleton, outcome, world.step())
 
 
-def follow(stream: SkeletonRecording, pipeline: Pipeline) -> Recording:
-    """Follow a whole stream in a fresh world and return the recording of it."""
-    info = RecordingInfo.of(pipeline, stream)
-    with start_world(pipeline.arms, pipeline.mapping, pipeline.hands.options) as world:
+def follow(stream: SkeletonRecording, pipeline: Pipeline, scene: Scene | None = None) -> Recording:
+    """Follow a whole stream in a fresh world, of the usual scene or ``scene``; return all of it."""
+    info = RecordingInfo.of(pipeline, stream, scene or USUAL)
+    with start_world(pipeline.arms, pipeline.mapping, pipeline.hands.options, scene) as world:
         return Recording(info, tuple(follow_steps(newest_frames(stream), pipeline, world)))

@@ -1,7 +1,7 @@
 """What the robot's hands do beside its arms: wrists and grippers, each an option, off by default.
 
-They are no part of what is learned: the network learns the arms, as the paper's does, and a motion
-that is played brings its hands along, by the time in it (`HandTrack`).
+The network learns the arms, as the paper's does; a motion that is played brings its hands along, by
+the time in it (`HandTrack`), the grip as it was learned (`learned_hands.py`).
 """
 
 from collections.abc import Sequence

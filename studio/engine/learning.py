@@ -22,6 +22,7 @@ from studio.engine.curves import (
     block_point_of,
 )
 from studio.engine.errors import StudioError
+from studio.engine.evaluate.tryout import TryoutRun, TryoutStatus
 from studio.engine.export.equation import Equation
 from studio.engine.export.equations import reproduced_numbers
 from studio.engine.findings import Findings
@@ -63,6 +64,7 @@ class Learning:
         self._material: tuple[FloatArray, ...] = ()
         self._unchanged = 0  # ticks since demonstrations or learner changed
         self._findings = Findings()
+        self.tryout = TryoutStatus()  # of the newest test
         self._explained: Lesson | None = None  # the lesson whose equations are there, or failed
         self._equations: Mapping[str, Equation] = {}  # of what was learned
         self._explained_done: Reproduction | None = None  # whose equations are in there, too
@@ -75,20 +77,22 @@ class Learning:
         StudioError
             Where it is impossible, nothing was taught, or something else goes on.
         """
-        arms, mapping = choices.arms, choices.mapping
+        kind = choices.arms, choices.mapping, choices.scene.name
         match command:
             case commands.ChooseLearner(settings):
                 self._choose(settings)
             case commands.Train(settings):
-                taught = self._listed.taught(arms, mapping)
+                taught = self._listed.taught(*kind)
                 self._ask(Training(taught, settings), f"training {_named(settings)}")
                 self._choose(settings)
             case commands.Guess(settings, falls):
-                self._try(TrialRun(self._listed.taught(arms, mapping), settings), falls)
+                self._try(TrialRun(self._listed.taught(*kind), settings), falls)
             case commands.RevealBlocks(learner):
-                taught = self._listed.taught(arms, mapping)
+                taught = self._listed.taught(*kind)
                 if missing := self._findings.untried(learner):
                     self._ask(BlockCurve(taught, learner, missing), "letting Baxter try them all")
+            case commands.TryOut(trials):
+                self._test(trials)
             case commands.ResumeCurve():
                 self._findings.give_up(self._chosen.name, "")
             case commands.CancelWork():
@@ -118,7 +122,7 @@ class Learning:
         if self._underway is not None:
             words = self._underway.words
             self._work.cancel()
-            self._underway = None
+            self._underway, self.tryout = None, replace(self.tryout, goes_on=False)
             return f"Canceled: {words}."
         if isinstance(self._work.task, ErrorCurve):
             self._work.cancel()
@@ -135,7 +139,7 @@ class Learning:
         """Keep what Baxter has made of a lesson, if nothing newer was learned meanwhile."""
         if lesson is self.lesson:
             taught = lesson.taught
-            error = deviation(performance, taught.mean, taught.joints, taught.hands)
+            error = deviation(performance, taught.mean, taught.joints, lesson.hands)
             self.reproduction = Reproduction(performance, error)
 
     def close(self) -> None:
@@ -144,7 +148,8 @@ class Learning:
 
     def mode(self, mode: Mode) -> Mode:
         """Return what the session is doing, for the state pill: training, if nothing else."""
-        return Mode.TRAINING if mode is Mode.IDLE and self._underway is not None else mode
+        waits = self._underway is not None and not self.tryout.goes_on
+        return Mode.TRAINING if mode is Mode.IDLE and waits else mode
 
     @property
     def status(self) -> LearningStatus:
@@ -190,6 +195,13 @@ class Learning:
         self._choose(settings)
         self._guess = falls
 
+    def _test(self, trials: int) -> None:
+        if self.lesson is None:
+            raise StudioError("Train first: there is nothing learned to test")
+        run = TryoutRun(self.lesson, self.lesson.taught.scene, trials)
+        self._ask(run, f"testing {trials} times")
+        self.tryout = TryoutStatus.of(run, (), goes_on=True)
+
     def _notice(self, material: tuple[FloatArray, ...]) -> str:
         """Forget what was found out if the demonstrations have changed."""
         before = self._material
@@ -205,7 +217,8 @@ class Learning:
 
     def _shown(self, choices: Choices) -> tuple[FloatArray, ...]:
         """Return what the demonstrations show that are learned from, each (T, D) [rad]."""
-        fitting = (e for e in self._listed.entries if e.is_of(choices.arms, choices.mapping))
+        kind = choices.arms, choices.mapping, choices.scene.name
+        fitting = (entry for entry in self._listed.entries if entry.is_of(*kind))
         return tuple(entry.demonstration.sent for entry in fitting if entry.included)
 
     def _use_the_time(self, choices: Choices) -> None:
@@ -214,7 +227,7 @@ class Learning:
         if self.lesson is not None and self._explained is not self.lesson:
             self._work.start(Explaining(self.lesson))
         elif self._material and self._unchanged > PATIENCE and curve.missing and not curve.note:
-            taught = self._listed.taught(choices.arms, choices.mapping)
+            taught = self._listed.taught(choices.arms, choices.mapping, choices.scene.name)
             self._work.start(ErrorCurve(taught, curve.learner, curve.missing))
 
     def _hear(self, report: Report) -> str:
@@ -233,6 +246,8 @@ class Learning:
         if isinstance(task, BlockCurve):
             found_blocks = [point for point in report.points if isinstance(point, BlockPoint)]
             self._findings.add_outcomes(task.learner, found_blocks)
+        if isinstance(task, TryoutRun):
+            self.tryout = TryoutStatus.of(task, report.points, goes_on=not is_over)
         if is_over:
             self._underway = None
         elif self._underway is not None:
@@ -243,6 +258,8 @@ class Learning:
 
     def _keep(self, task: Task, points: tuple[object, ...]) -> str:
         """Keep what somebody waited for, and say what it is."""
+        if isinstance(task, TryoutRun):
+            return self.tryout.words
         for point in points:
             if isinstance(task, Training) and isinstance(point, Lesson):
                 self._learn(replace(point, taught=task.taught), None)
@@ -259,9 +276,8 @@ class Learning:
 
     def _tell(self, settings: LearnerSettings, point: BlockPoint) -> str:
         self._findings.add_outcomes(settings.name, [point], self._guess)
-        fell = "falls" if point.block_down else "stays up"
-        right = "as you said" if self._guess == point.block_down else "not as you said"
-        return f"With {_named(settings)} the block {fell}, {right}."
+        right = "as you said" if self._guess == point.done else "not as you said"
+        return f"With {_named(settings)} {point.task.event[not point.done]}, {right}."
 
 
 def _named(settings: LearnerSettings) -> str:

@@ -12,6 +12,7 @@ from studio.engine.errors import NothingTaughtError, StudioError
 from studio.engine.export.material import Take
 from studio.engine.quality import flags_of
 from studio.engine.retarget import Mapping
+from studio.engine.scene import DEFAULT_SCENE
 
 
 class Listed:
@@ -100,25 +101,22 @@ class Listed:
         """Return all of the list, as exports take it."""
         return tuple(entry.take for entry in self.entries)
 
-    def taught(self, arms: Arms, mapping: Mapping) -> DemonstrationSet:
-        """Return the included demonstrations of these arms and mapping.
+    def taught(self, arms: Arms, mapping: Mapping, scene: str = DEFAULT_SCENE) -> DemonstrationSet:
+        """Return the included demonstrations of these arms and mapping, in the scene of that name.
 
         Raises
         ------
         NothingTaughtError
             Where none is listed, or all are left out.
         """
-        listed = [each for each in self.entries if each.is_of(arms, mapping)]
+        listed = [each for each in self.entries if each.is_of(arms, mapping, scene)]
         included = [each.demonstration for each in listed if each.included]
+        where = "" if scene == DEFAULT_SCENE else f" in the scene {scene}"
+        what = f"demonstration by {in_words(arms)} with the {mapping} mapping{where}"
         if not listed:
-            raise NothingTaughtError(
-                f"No demonstration by {in_words(arms)} with the {mapping} mapping: record one first"
-            )
+            raise NothingTaughtError(f"No {what}: record one first")
         if not included:
-            raise NothingTaughtError(
-                f"Every demonstration by {in_words(arms)} with the {mapping} mapping is left out: "
-                "include one first"
-            )
+            raise NothingTaughtError(f"Every {what} is left out: include one first")
         return DemonstrationSet.of(included)
 
     def look(self) -> bool:

@@ -23,8 +23,10 @@ from studio.engine.mcap_log import LogReader, LogWriter, is_mcap
 from studio.engine.mcap_messages import CHANNELS, SCHEMAS, messages_of, sample_of
 from studio.engine.recording import Recording, RecordingInfo, Sample
 from studio.engine.retarget import MAPPINGS
+from studio.engine.scene import USUAL, Scene
+from studio.engine.scene_file import scene_of, table_of
 from studio.engine.sources.mcap_skeletons import HOLDS, holds_skeletons
-from studio.engine.sources.strict_json import as_flag, as_numbers
+from studio.engine.sources.strict_json import as_flag, as_numbers, as_object, as_text
 from studio.engine.wrist import WRIST_MODES
 
 SCHEMA_VERSION = "1"
@@ -66,6 +68,7 @@ class RecordingWriter:
                 "calibration": json.dumps(info.calibration and info.calibration.down),
                 "gripper": json.dumps(info.hands.gripper),
                 "wrist": info.hands.wrist,
+                "scene": json.dumps({"name": info.scene.name, **table_of(info.scene)}),
                 "gate": info.gate,
                 "source": info.source,
                 **{name: version(name) for name in ("numpy", "pybullet", "mcap")},
@@ -194,13 +197,22 @@ def _info(path: Path, metadata: Mapping[str, str]) -> RecordingInfo:
         raise FileError(f"{path}: its metadata name no arm, mapping or gate that the studio knows")
     try:
         mirrored, calibration = _how_taught(metadata)
-        hands = _hands(metadata)
+        hands, scene = _hands(metadata), _scene(metadata)
     except (StudioError, TypeError, ValueError, RecursionError) as error:
         raise FileError(
-            f"{path}: its metadata's mirroring or calibration, or what they say of hands, is broken"
+            f"{path}: its metadata's mirroring or calibration, or what they say of hands or of the "
+            "scene, is broken"
         ) from error
     source = metadata.get("source", "unknown")
-    return RecordingInfo(arms, mapping, gate, source, mirrored, calibration, hands)
+    return RecordingInfo(arms, mapping, gate, source, mirrored, calibration, hands, scene)
+
+
+def _scene(metadata: Mapping[str, str]) -> Scene:
+    """Return the scene in which it was taught; older studios had one only."""
+    if "scene" not in metadata:
+        return USUAL
+    table = as_object(json.loads(metadata["scene"]), "the scene")
+    return scene_of(table, "the scene", as_text(table.pop("name"), "the scene's name"))
 
 
 def _hands(metadata: Mapping[str, str]) -> HandOptions:

@@ -81,6 +81,8 @@ def messages_of(sample: Sample, joints: Sequence[str]) -> Iterator[tuple[str, di
             "tilt": world.tilt,
             "block_down": world.block_down,
             "fingers": world.fingers.tolist(),
+            "done": world.done,
+            "missing": world.missing,
         },
     )
 
@@ -139,6 +141,9 @@ def _world(world: Mapping[str, Any], joints: Mapping[str, Any]) -> WorldState:
         tilt=as_number(world["tilt"], "the tilt"),
         block_down=as_flag(world["block_down"], "block_down"),
         fingers=as_numbers(world.get("fingers", []), "fingers"),
+        # Older recordings knew the paper's task only.
+        done=as_flag(world.get("done", world["block_down"]), "done"),
+        missing=as_text(world.get("missing", ""), "what is missing"),
     )
 
 
@@ -219,6 +224,8 @@ SCHEMAS: dict[str, dict[str, Any]] = {
             "tilt": {"type": "number", "description": "rad"},
             "block_down": {"type": "boolean"},
             "fingers": {**_NUMBERS, "description": "m: how far out each is, if there are any"},
+            "done": {"type": "boolean", "description": "the scene's task"},
+            "missing": {"type": "string", "description": "for the scene's task yet, in words"},
         },
         "time",
     ),

@@ -20,6 +20,7 @@ from studio.engine.moment import recording_at
 from studio.engine.performance import Performance, in_guards_words
 from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
 from studio.engine.skeleton import FloatArray, Side
+from studio.engine.task_words import BLOCK, TaskWords, task_words
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +33,9 @@ class Measured:
     acceleration: float  # [m/s²] root mean square of the hand's
     block_down: bool
     guarded: str = ""  # what kept a robot from doing what was asked, in words
+    done: bool = False  # the scene's task; of the paper's: block_down
+    missing: str = ""  # for that, in words
+    task: TaskWords = BLOCK  # how one says that
 
 
 def measure_performance(
@@ -47,6 +51,9 @@ def measure_performance(
         hand_acceleration(joints, alone.arms),
         alone.block_down,
         in_guards_words(alone),
+        alone.done,
+        alone.missing,
+        task_words(taught.scene),
     )
 
 
@@ -56,13 +63,16 @@ def measure_demonstration(take: Take, taught: DemonstrationSet) -> Measured:
     joints = followed(take, round(shown.duration * CONTROL_RATE) + 1)
     rows = followed(take, SAMPLES)
     meant = body_as_meant(taught.mean, taught.joints, taught.arms, taught.duration, taught.hands)
-    down = take.recording.samples[-1].world.block_down
+    last = take.recording.samples[-1].world
     return Measured(
         shown.name,
         "",
         deviation_between(rows, meant, taught.joints, shown.arms),
         hand_acceleration(joints, shown.arms),
-        down,
+        last.block_down,
+        done=last.done,
+        missing=last.missing,
+        task=task_words(shown.scene),
     )
 
 

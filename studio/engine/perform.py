@@ -43,7 +43,7 @@ class Perform:
         """Return the performance of what was learned."""
         taught = lesson.taught
         return cls(
-            lesson.trajectory(), taught.duration, taught.arms, taught.mapping, taught.hands, scene
+            lesson.trajectory(), taught.duration, taught.arms, taught.mapping, lesson.hands, scene
         )
 
     def step(self) -> bool:

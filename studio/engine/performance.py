@@ -1,38 +1,38 @@
 """Baxter does a motion alone: any trajectory, through limits and guard, in a fresh world."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from studio.engine.arms import HANGING, Arms, driven_joints, learned_columns, sides_of
-from studio.engine.engage import (
-    ARRIVED_WITHIN,
-    EngageMemory,
-    Joints,
-    Move,
-    Passed,
-    largest,
-)
-from studio.engine.errors import StudioError
 from studio.engine.fingers import fingers_of
 from studio.engine.hands import PLAIN, STILL, HandCommand, HandOptions, HandTrack
 from studio.engine.limits import Command
-from studio.engine.pipeline import Pipeline, ready_pose
+from studio.engine.pipeline import ready_pose
+from studio.engine.planning import SETTLE, Planner, Trajectory, UnreachableError
 from studio.engine.retarget import Mapping
-from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE, JOINT_NAMES, load_robot
+from studio.engine.robot import CONTROL_PERIOD, JOINT_NAMES
+from studio.engine.scene import USUAL, Scene
 from studio.engine.skeleton import SIDES, FloatArray
-from studio.engine.world import Scene, World, WorldState
+from studio.engine.world import World, WorldState
 
-SETTLE = 1.5  # [s] after the motion, in which a block that was pushed comes to rest
-_LONGEST_WAY = 10.0  # [s] to where a motion begins; at the engagement's speeds 6 are enough
-_NO_WAY = 1e-4  # [rad] in a tick; slower, with the guard in the way, it comes no further
-Trajectory = Callable[[float], FloatArray]  # time [s] -> (D,) [rad], the learned joints
-
-
-class UnreachableError(StudioError):
-    """The robot cannot come to where a motion begins."""
+__all__ = [
+    "SETTLE",
+    "Performance",
+    "Tick",
+    "Trajectory",
+    "UnreachableError",
+    "in_guards_words",
+    "joint_columns",
+    "perform",
+    "perform_steps",
+    "rows_as_trajectory",
+    "send",
+    "start_world",
+    "whole_body",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +61,16 @@ class Performance:
         return self.ticks[-1].world.block_down
 
     @property
+    def done(self) -> bool:
+        """Whether the scene's task was done, in the end."""
+        return self.ticks[-1].world.done
+
+    @property
+    def missing(self) -> str:
+        """What was missing for that, in words."""
+        return self.ticks[-1].world.missing
+
+    @property
     def guarded_ticks(self) -> int:
         """How many of the ticks the collision guard changed: they are not what was asked."""
         return sum(1 for tick in self.ticks if tick.command.guarded)
@@ -87,18 +97,24 @@ class Performance:
 
 
 def start_world(
-    arms: Arms, mapping: Mapping, hands: HandOptions = PLAIN, scene: Scene | None = None
+    arms: Arms,
+    mapping: Mapping,
+    hands: HandOptions = PLAIN,
+    scene: Scene | None = None,
+    pose: FloatArray | None = None,
 ) -> World:
     """Return a fresh world in which the taught arms wait in their ready pose; another one hangs.
 
-    Fingers, if the hands have any, are open. ``scene`` is the usual one unless given.
+    Fingers, if the hands have any, are open. ``scene`` is the usual one, and ``pose`` (D,) [rad] of
+    the driven joints the ready one, unless given.
     """
-    ready = dict(zip(driven_joints(arms), ready_pose(arms, mapping).tolist(), strict=True))
+    pose = ready_pose(arms, mapping) if pose is None else pose
+    ready = dict(zip(driven_joints(arms), pose.tolist(), strict=True))
     for side in set(SIDES) - set(sides_of(arms)):
         ready |= dict(zip(driven_joints(side), HANGING[side], strict=True))
     if hands.gripper:
         ready |= fingers_of("left", closed=False) | fingers_of("right", closed=False)
-    return World(scene or Scene(arms=arms), ready, hands.gripper)
+    return World((scene or USUAL).taught_by(arms), ready, hands.gripper)
 
 
 def send(
@@ -133,82 +149,9 @@ def perform_steps(
         Where the guard does not let the robot come to where the motion begins; nothing has moved.
     """
     options = PLAIN if hands is None else hands.options
-    pipeline = Pipeline.for_robot(load_robot(), arms, mapping, hands=options)
-    columns, driven = learned_columns(arms, mapping), len(driven_joints(arms))
-    wrists = np.zeros(len(options.wrist_joints(arms)))
-    sent = np.concatenate([ready_pose(arms, mapping), wrists])
-
-    def wanted_at(time: float, before: FloatArray) -> tuple[FloatArray, HandCommand]:
-        wanted, told = before.copy(), STILL if hands is None else hands.at(time)
-        wanted[columns], wanted[driven:] = trajectory(time), told.wrist
-        return wanted, told
-
-    def sent_as(command: Command, told: HandCommand, time: float) -> Tick:
-        wrist = tuple(command.sent[driven:].tolist())
-        send(world, arms, command.sent[:driven], options, replace(told, wrist=wrist))
-        return Tick(time, command.of_first(driven), world.step())
-
-    begin, told = wanted_at(0.0, sent)
-    way = _way(pipeline, sent, begin)
-    for k, command in enumerate(way, start=-len(way)):
-        sent = command.sent
-        yield sent_as(command, told, k * CONTROL_PERIOD)
-    memory: EngageMemory | None = EngageMemory(0.0, arrived=True, released=True)
-    for k in range(round((duration + SETTLE) * CONTROL_RATE)):
-        time = k * CONTROL_PERIOD
-        wanted, told = wanted_at(min(time, duration), sent)
-        memory, command = _softly(pipeline, memory, sent, wanted, time)
-        sent = command.sent
-        yield sent_as(command, told, time)
-
-
-def _way(pipeline: Pipeline, start: FloatArray, begin: FloatArray) -> list[Command]:
-    """Return the commands from one pose (D,) [rad] to another, at the speed of an engagement.
-
-    Raises
-    ------
-    UnreachableError
-        Where the guard lets none of them come near.
-    """
-    memory: EngageMemory | None = None
-    begin = np.clip(begin, pipeline.limits.lower, pipeline.limits.upper)
-    way: list[Command] = []
-    sent, moved = start, np.inf
-    while len(way) < _LONGEST_WAY * CONTROL_RATE and moved > _NO_WAY:
-        if np.array_equal(sent, begin):
-            return way
-        memory, command = _softly(pipeline, memory, sent, begin, len(way) * CONTROL_PERIOD)
-        way.append(command)
-        moved, sent = np.abs(command.sent - sent).max(), command.sent
-    left = largest(_joints(sent), _joints(begin))
-    if left < ARRIVED_WITHIN:
-        return way
-    why = way[-1].guarded or "it takes too long"
-    raise UnreachableError(
-        f"Baxter cannot come to where this motion begins: {why}, {np.degrees(left):.0f}° short of "
-        "it. Nothing has moved: teach a motion that begins elsewhere"
-    )
-
-
-def _softly(
-    pipeline: Pipeline,
-    memory: EngageMemory | None,
-    sent: FloatArray,
-    wanted: FloatArray,
-    time: float,
-) -> tuple[EngageMemory | None, Command]:
-    """Return what is sent after ``sent`` (D,) [rad], and how far the engagement has come."""
-    engage, goal = pipeline.engage, _joints(wanted)
-    memory, target = engage.step(memory, _joints(sent), goal, time, CONTROL_PERIOD)
-    limited = pipeline.limits.step(sent, target, CONTROL_PERIOD)
-    command = pipeline.guard.keep(sent, limited, CONTROL_PERIOD)
-    passed = Passed(*map(_joints, (sent, limited.sent, command.sent)))
-    memory = engage.after(Move(memory, goal, target), passed, time, CONTROL_PERIOD)
-    return memory, command
-
-
-def _joints(row: FloatArray) -> Joints:
-    return tuple(row.tolist())
+    for step in Planner.of(arms, mapping, hands, world.scene).steps(trajectory, duration):
+        send(world, arms, step.command.sent, options, step.hands)
+        yield Tick(step.time, step.command, world.step())
 
 
 def perform(
@@ -217,12 +160,14 @@ def perform(
     arms: Arms,
     mapping: Mapping,
     hands: HandTrack | None = None,
+    scene: Scene | None = None,
 ) -> Performance:
-    """Play a trajectory in a world of its own; see `perform_steps`.
+    """Play a trajectory in a world of its own, with the usual scene or ``scene``.
 
-    Where its beginning cannot be reached the robot stays as it is, and the performance says so.
+    See `perform_steps`. Where its beginning cannot be reached the robot stays as it is, and the
+    performance says so.
     """
-    with start_world(arms, mapping, PLAIN if hands is None else hands.options) as world:
+    with start_world(arms, mapping, PLAIN if hands is None else hands.options, scene) as world:
         ready, refusal = world.state.joint_positions, ""
         try:
             ticks = tuple(perform_steps(world, trajectory, duration, arms, mapping, hands))

@@ -36,6 +36,7 @@ from studio.engine.limits import Command, Limits
 from studio.engine.reach import Reach
 from studio.engine.retarget import Angles, Mapping, solve_arm
 from studio.engine.robot import CONTROL_PERIOD, Robot, load_robot
+from studio.engine.scene import Scene
 from studio.engine.skeleton import FloatArray, Side, Skeleton
 from studio.engine.vectors import Vector
 
@@ -126,8 +127,11 @@ class Pipeline:
         mirrored: bool = False,
         calibration: Calibration | None = None,
         hands: HandOptions = PLAIN,
+        scene: Scene | None = None,
     ) -> "Pipeline":
         """Return the pipeline that drives one arm of ``robot``, or both, inside its limits.
+
+        It keeps off the desk of ``scene``, of the usual one unless given.
 
         Limits and guard are those of the arms' joints, followed by the wrists' that are driven.
         """
@@ -144,7 +148,9 @@ class Pipeline:
                 for side in sides_of(arms)
             ),
             limits=Limits(limits.lower, limits.upper, np.concatenate([arms_speed, calm])),
-            guard=Guard.for_robot(load_robot(True) if hands.gripper else robot, arms, wrists),
+            guard=Guard.for_robot(
+                load_robot(True) if hands.gripper else robot, arms, wrists, scene
+            ),
             hands=Hands.for_robot(robot, arms, hands),
             mirrored=mirrored,
             calibration=calibration,

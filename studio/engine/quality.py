@@ -15,6 +15,7 @@ from studio.engine.demonstration import Demonstration, resample
 from studio.engine.recording import Recording, Sample
 from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
 from studio.engine.skeleton import FloatArray
+from studio.engine.task_words import BLOCK, task_words
 
 LONGEST_DROPOUT = 0.3  # [s] without a usable arm; worst 0.0
 MOST_LIMITED = 0.15  # share of ticks at a position or velocity limit; worst 0.042
@@ -52,7 +53,7 @@ def flags_of(
         _too_little_motion(demonstration),
         _shake(samples),
         _outlier(demonstration, peers),
-        _block_stands(demonstration, recording),
+        _not_done(demonstration, recording),
     )
     return tuple(flag for flag in found if flag is not None)
 
@@ -125,13 +126,16 @@ def _distance(everyone: FloatArray, index: int) -> float:
     return float(np.degrees(np.sqrt(squares.mean())))
 
 
-def _block_stands(demonstration: Demonstration, recording: Recording) -> Flag | None:
-    """Flag a demonstration whose recording ends with the block still standing."""
-    if recording.samples[-1].world.block_down:
+def _not_done(demonstration: Demonstration, recording: Recording) -> Flag | None:
+    """Flag a demonstration whose recording ends with the task not done."""
+    last, end = recording.samples[-1].world, demonstration.duration
+    if last.done:
         return None
-    words = "the block was not pushed down: push further, or check where Baxter's hand went"
-    end = demonstration.duration
-    return Flag("block stands", 0.0, 1.0, "blocks down", words, ((end, end),))
+    if task_words(demonstration.scene) is BLOCK:
+        words = "the block was not pushed down: push further, or check where Baxter's hand went"
+        return Flag("block stands", 0.0, 1.0, "blocks down", words, ((end, end),))
+    words = f"the task was not done: {last.missing}; check where Baxter's hand went"
+    return Flag("task not done", 0.0, 1.0, "tasks done", words, ((end, end),))
 
 
 def _runs(marks: Sequence[bool], step: float = CONTROL_PERIOD) -> tuple[tuple[float, float], ...]:

@@ -10,6 +10,7 @@ from studio.engine.hands import PLAIN, STILL, HandCommand, HandOptions
 from studio.engine.live.latency import LatencyChain
 from studio.engine.pipeline import NO_LAG, Lag, Outcome, Pipeline
 from studio.engine.retarget import Mapping
+from studio.engine.scene import USUAL, Scene
 from studio.engine.skeleton import FloatArray, Skeleton
 from studio.engine.sources.recording import SkeletonRecording, from_skeletons
 from studio.engine.world import WorldState
@@ -77,9 +78,10 @@ class RecordingInfo:
     mirrored: bool = False
     calibration: Calibration | None = None
     hands: HandOptions = PLAIN
+    scene: Scene = USUAL  # in which it was taught, before anybody moved a block
 
     @classmethod
-    def of(cls, pipeline: Pipeline, origin: Origin) -> "RecordingInfo":
+    def of(cls, pipeline: Pipeline, origin: Origin, scene: Scene = USUAL) -> "RecordingInfo":
         """Return what a recording of skeletons followed through a pipeline says of itself."""
         source = f"{origin.path} ({origin.format})"
         return cls(
@@ -90,6 +92,7 @@ class RecordingInfo:
             pipeline.mirrored,
             pipeline.calibration,
             pipeline.hands.options,
+            scene,
         )
 
 

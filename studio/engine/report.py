@@ -12,6 +12,7 @@ from studio.engine.experiment import Experiment, FileOutcome, Setup
 from studio.engine.measures import Deviation
 from studio.engine.performance import Performance, in_guards_words
 from studio.engine.skeleton import FloatArray
+from studio.engine.task_words import BLOCK, task_words
 from studio.engine.teaching import Lesson, Replay, Reproduction
 
 
@@ -30,6 +31,7 @@ def _nothing(setup: Setup) -> dict[str, Any]:
     return {
         "arm": setup.arms,
         "mapping": setup.mapping,
+        "scene": setup.scene.name,
         "joints": list(learned_joints(setup.arms, setup.mapping)),
         "samples": SAMPLES,
         "learner": {"name": setup.learner.name, "neurons": setup.learner.neurons},
@@ -51,6 +53,7 @@ def as_results(
     return {
         "arm": lesson.taught.arms,
         "mapping": lesson.taught.mapping,
+        "scene": lesson.taught.scene.name,
         "joints": list(joints),
         "samples": SAMPLES,
         "learner": {"name": lesson.settings.name, "neurons": lesson.settings.neurons},
@@ -90,8 +93,7 @@ def as_text(experiment: Experiment) -> str:
     lines += [
         f"The hand, against the mean demonstration as sent: mean {_mm(error.hand_mean)}, "
         f"largest {_mm(error.hand_max)}, after time warping {_mm(error.hand_dtw)}.",
-        f"Block down: alone {_yes(reproduction.performance.block_down)}; the demonstrations' own "
-        f"replays {', '.join(_yes(r.performance.block_down) for r in experiment.replays)}.",
+        _done_line(lesson, reproduction, experiment.replays),
         _interpolation_line(experiment.replays),
     ]
     played = {"Alone": reproduction.performance}
@@ -151,6 +153,15 @@ def _joint_lines(lesson: Lesson, reproduction: Reproduction) -> list[str]:
     return lines
 
 
+def _done_line(lesson: Lesson, reproduction: Reproduction, replays: Sequence[Replay]) -> str:
+    alone, task = reproduction.performance, task_words(lesson.taught.scene)
+    missing = f" ({alone.missing})" if alone.missing and task is not BLOCK else ""
+    return (
+        f"{task.by_name}: alone {_yes(alone.done)}{missing}; the demonstrations' own "
+        f"replays {', '.join(_yes(each.performance.done) for each in replays)}."
+    )
+
+
 def _interpolation_line(replays: Sequence[Replay]) -> str:
     worst = max(replay.interpolation.hand_max for replay in replays)
     mean = float(np.mean([replay.interpolation.hand_mean for replay in replays]))
@@ -174,6 +185,8 @@ def _deviation(joints: Sequence[str], error: Deviation) -> dict[str, Any]:
 def _performed(performance: Performance) -> dict[str, Any]:
     return {
         "block_down": performance.block_down,
+        "task_done": performance.done,
+        "missing": performance.missing,
         "guarded_ticks": performance.guarded_ticks,
         "refusal": performance.refusal,
     }

@@ -4,7 +4,6 @@ It reads no clock: `tick` is one control period, whoever calls it and however fa
 `snapshot` may be used from other threads.
 """
 
-import queue
 import threading
 from collections.abc import Callable
 from dataclasses import replace
@@ -19,12 +18,15 @@ from studio.engine.choices import Choices
 from studio.engine.collection import Collection
 from studio.engine.commands import Command
 from studio.engine.comparing import Comparing
+from studio.engine.drawn import Parts
+from studio.engine.driving import SILENT, Driven, driven
 from studio.engine.errors import StudioError
 from studio.engine.exporting import Exporting
 from studio.engine.films import Film
+from studio.engine.inbox import Answer, Inbox, nobody
 from studio.engine.learning import Learning
+from studio.engine.links.linked import Linked
 from studio.engine.live.source import LiveSource
-from studio.engine.pipeline import NO_LAG
 from studio.engine.showing import Show
 from studio.engine.snapshot import Snapshot
 from studio.engine.taking import Taking
@@ -43,8 +45,8 @@ class Session:
         Folder for new recordings.
     seed
         The demonstrator's.
-    live
-        Where live streams come in, if any are taken.
+    live, linked
+        Where live streams come in, if any are taken; a robot that goes along, if any can.
     work
         Where it learns; without one, in its ticks.
     """
@@ -55,8 +57,9 @@ class Session:
         seed: int = 0,
         live: LiveSource | None = None,
         work: Workplace | None = None,
+        linked: Linked | None = None,
     ) -> None:
-        self._inbox: queue.SimpleQueue[Command] = queue.SimpleQueue()
+        self._inbox = Inbox()
         self._choices, self._calibrated_with = Choices(), ""
         self._who = WhoTeaches(seed, live)
         self._collection = Collection(recordings, self.post)
@@ -65,6 +68,17 @@ class Session:
         self._learning = Learning(self._listed, work)
         self._comparing = Comparing()
         self._exporting = Exporting(self._listed, self._learning, seed, self.post)
+        self._linked = Linked() if linked is None else linked
+        self._parts = Parts(
+            self._who,
+            self._listed,
+            self._collection,
+            self._learning,
+            self._comparing,
+            self._exporting,
+            self._taking,
+            self._linked,
+        )
         self._telling = Telling(
             "Ready: choose a source and record, or train on the samples.", self._hold
         )
@@ -72,27 +86,35 @@ class Session:
         self._activity: Activity = Hold(self._choices.start_world())
         self._draw()
 
-    def post(self, command: Command) -> None:
-        """Put a command into the inbox; it takes effect at the next tick. Any thread may call."""
-        self._inbox.put(command)
+    def post(self, command: Command, answer: Answer = nobody) -> None:
+        """Put a command into the inbox; it takes effect at the next tick. Any thread may call.
+
+        ``answer`` is told after that tick what came of it.
+        """
+        self._inbox.put(command, answer)
 
     def tick(self) -> Snapshot:
         """Take all commands, then do one control period; return and publish what came out."""
-        while True:
-            try:
-                command = self._inbox.get_nowait()
-            except queue.Empty:
-                break
-            self._attempt(partial(self._take_command, command))
+        answers = self._take_all()
         if not self._attempt(self._step):
             self._attempt(self._hold)
+        self._attempt(lambda: self._say(self._linked.tick(self._activity, self._choices)))
         self._attempt(self._look)
         self._attempt(self._collection.step)
         self._attempt(lambda: self._say(self._learning.tick(self._choices, self._activity.mode)))
         self._attempt(lambda: self._say(self._exporting.tick(self._choices)))
         if not self._attempt(self._draw):
             self._attempt(self._draw)  # a robot that holds still by now
+        for answer in answers:
+            answer()
         return self.snapshot
+
+    def hear(self) -> None:
+        """Take all commands without letting time pass."""
+        answers = self._take_all()
+        self._attempt(self._draw)
+        for answer in answers:
+            answer()
 
     @property
     def awaited(self) -> threading.Event | None:
@@ -101,6 +123,7 @@ class Session:
 
     def close(self) -> None:
         """End the session; what is being recorded is kept."""
+        self._linked.close()
         self._who.close()
         self._attempt(self._collection.close)
         self._learning.close()
@@ -117,6 +140,12 @@ class Session:
             self._follow(self._taking.next_path(), Plan(repeats=True))
         elif isinstance(self._activity, Show) and self._activity.is_through:
             self._say(self._comparing.judge(self._activity.film, self._learning))
+
+    def _take_all(self) -> list[Callable[[], None]]:
+        def take(command: Command) -> None:
+            self._attempt(partial(self._take_command, command))
+
+        return self._inbox.serve(take, lambda: self._telling.message)
 
     def _take_command(self, command: Command) -> None:
         """Give a command to the part that it is for."""
@@ -135,10 +164,15 @@ class Session:
             self._say(self._exporting.take(command, self._choices))
         elif isinstance(command, commands.CompareCommand):
             self._compare(command)
+        elif isinstance(command, commands.DriveCommand):
+            self._drive(command)
+        elif isinstance(command, commands.LinkCommand):
+            self._say(self._linked.take(command))
         else:
             self._act(command)
 
     def _act(self, command: commands.ActCommand) -> None:
+        self._linked.hear(command)
         match command:
             case commands.Stop():
                 if isinstance(self._activity, Show):
@@ -146,11 +180,11 @@ class Session:
                 else:
                     self._finish(stopped=True)
                 self._say(self._learning.cancel())
-            case commands.LetGo(why) if isinstance(self._activity, Follow):
+            case commands.LetGo(why) if isinstance(self._activity, Follow | Driven):
                 self._finish(stopped=True)
                 self._say(f"{why} {self._telling.message.text}")
-            case commands.Configure():
-                self._configure(command.choices)
+            case commands.Configure() | commands.ChooseScene():
+                self._configure(command.among(self._choices))
             case commands.Calibrate():
                 self._calibrate()
             case commands.ForgetCalibration():
@@ -174,15 +208,15 @@ class Session:
             self._say(self._collection.add(found.recording, found.name, found.path))
 
     def _configure(self, chosen: Choices) -> None:
-        if isinstance(self._activity, Follow):
+        if isinstance(self._activity, Follow | Driven):
             raise StudioError("Stop first: what was chosen stays as it is while teaching")
-        before = self._choices
-        self._choices = replace(chosen, calibration=before.calibration)
-        if chosen.joints != before.joints:
+        before, self._choices = self._choices, chosen
+        if not chosen.learns_as(before):
             self._learning.forget()
             self._comparing.forget()
         if not chosen.starts_as(before):
             self._begin(lambda: Hold(self._comparing.start_world(chosen)))
+        self._say(self._who.in_scene(chosen.scene))
 
     def _calibrate(self) -> None:
         teacher = self._who.required()
@@ -192,18 +226,25 @@ class Session:
 
     def _follow(self, path: Path | None, plan: Plan = NO_PLAN) -> None:
         teacher, pipeline = self._who.required(), self._choices.pipeline()
-        scene = self._comparing.scene(pipeline.arms)
-        self._begin(lambda: Follow(teacher, pipeline, path, scene, plan))
+        usual, scene = self._choices.scene, self._comparing.scene(self._choices)
+        self._begin(lambda: Follow(teacher, pipeline, path, scene, plan, usual))
         self._say("Recording." if path else "Watching, not recording.")
 
     def _compare(self, command: commands.CompareCommand) -> None:
         moves = isinstance(command, commands.PlaceBlock | commands.PutBlockBack)
-        if moves and not isinstance(self._activity, Hold | Show):
+        if moves and not isinstance(self._activity, Hold | Show | Driven):
             raise StudioError("Somebody teaches: press Stop first, then move the block")
-        words = self._comparing.take(command, self._learning.lesson, self._choices.arms)
+        words = self._comparing.take(command, self._learning.lesson, self._choices)
         if moves:
             self._begin(lambda: Hold(self._comparing.start_world(self._choices)))
         self._say(words)
+
+    def _drive(self, command: commands.DriveCommand) -> None:
+        goes_on = driven(self._activity, self._choices, command)
+        if goes_on is not None and goes_on is not self._activity:
+            self._finish(stopped=True)
+            self._activity = goes_on
+            self._say("A program drives Baxter.")
 
     def _show(self, film: Film | None) -> None:
         """Put something on the timeline; it keeps the present world unless it brings its own."""
@@ -239,6 +280,8 @@ class Session:
             self._comparing.timeline = ended.timeline  # speed and loop stay
         elif stopped and not isinstance(ended, Hold):
             self._say("Stopped.")
+        elif isinstance(ended, Driven):
+            self._say(SILENT)
         elif isinstance(ended, Calibrating):
             self._take_calibration(ended)
 
@@ -251,40 +294,6 @@ class Session:
 
     def _draw(self) -> None:
         """Publish what all this looks like by now."""
-        now = self._activity
-        following = now if isinstance(now, Follow) else None
-        newest = following.newest if following else None
-        watching = now if isinstance(now, Follow | Calibrating) else None
-        shown = watching or self._who.chosen
-        show = now if isinstance(now, Show) else None
-        seen = show.seen if show else None
-        self.snapshot = Snapshot(
-            mode=self._learning.mode(now.mode),
-            message=self._telling.message,
-            time=now.time,
-            duration=now.duration,
-            choices=self._choices,
-            calibrated_with=self._calibrated_with if self._choices.calibration else "",
-            calibrating=now.progress if isinstance(now, Calibrating) else None,
-            source=self._who.status(),
-            live=self._who.live(watching.teacher if watching else None),
-            who=self._who.shown(now),
-            skeleton=seen.skeleton if seen else shown.skeleton if shown else None,
-            gate=newest.gate if newest else None,
-            held=newest.held if newest else "",
-            guarded=now.guarded,
-            lag=newest.lag if newest else NO_LAG,
-            alone=show is not None and show.is_alone and show.is_playing,
-            world=seen.world if seen else now.world.state,
-            entries=tuple(self._listed.entries),
-            chosen=self._listed.index,
-            collection=self._collection.status(),
-            ghost=seen.ghost if seen else None,
-            learning=self._learning.status,
-            lesson=self._learning.lesson,
-            reproduction=self._learning.reproduction,
-            compare=self._comparing.status(show, self._learning, self._listed),
-            export=self._exporting.status,
-            recorded=len(following.samples) if following else 0,
-            saved_as=self._taking.saved_as,
-        )
+        calibrated_with = self._calibrated_with if self._choices.calibration else ""
+        message = self._telling.message
+        self.snapshot = self._parts.drawn(self._activity, message, self._choices, calibrated_with)

@@ -7,16 +7,18 @@ from studio.engine.choices import Choices
 from studio.engine.collection import CollectionStatus
 from studio.engine.compare_status import CompareStatus
 from studio.engine.entry import Entry
+from studio.engine.evaluate.tryout import TryoutStatus
 from studio.engine.export_status import ExportStatus
 from studio.engine.gate import GateStatus
 from studio.engine.learning_status import LearningStatus
+from studio.engine.links.status import LinkStatus
 from studio.engine.live.status import LiveStatus
 from studio.engine.pipeline import Lag
 from studio.engine.skeleton import FloatArray, Skeleton
 from studio.engine.sources import SkeletonRecording
 from studio.engine.teaching import Lesson, Reproduction
 from studio.engine.who_status import WhoStatus
-from studio.engine.world import WorldState
+from studio.engine.world import Scene, WorldState
 
 
 class Mode(StrEnum):
@@ -29,6 +31,7 @@ class Mode(StrEnum):
     PLAYING = "playing"
     CALIBRATING = "calibrating"
     TRAINING = "training"  # somebody waits for what is being computed; the robot holds still
+    DRIVEN = "driven"  # a program says where its joints go
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,16 @@ class Progress:
     words: str  # what the person should do
 
 
+@dataclass(frozen=True)
+class DrivenStatus:
+    """A robot that a program drives."""
+
+    joints: tuple[str, ...]  # that it may drive
+    follows: bool  # it has come to where the program began, and keeps up from there
+    arrived: bool  # it is where the last targets are, as far as guard and limits let it
+    holds: bool  # the program was silent for too long
+
+
 @dataclass(frozen=True, eq=False)
 class Snapshot:
     """Everything that a panel may draw."""
@@ -85,6 +98,7 @@ class Snapshot:
     lag: Lag  # by which what is sent is behind the person
     alone: bool  # it plays what it learned, not a demonstration
     world: WorldState
+    scene: Scene  # what stands around the robot in it, for the arms that are taught
     entries: tuple[Entry, ...]
     chosen: int  # index of the ghost's demonstration; -1 for none
     collection: CollectionStatus  # recordings, and what was deleted
@@ -92,7 +106,10 @@ class Snapshot:
     learning: LearningStatus
     lesson: Lesson | None
     reproduction: Reproduction | None
+    tryout: TryoutStatus
     compare: CompareStatus
     export: ExportStatus
     recorded: int  # ticks in the recording that is being made
     saved_as: str  # the last recording's file
+    link: LinkStatus  # the robot beyond the simulator
+    driven: DrivenStatus | None  # None while no program drives the robot

@@ -18,6 +18,7 @@ from studio.engine.measures import Deviation, deviation
 from studio.engine.parallel import run_all
 from studio.engine.performance import Performance, perform
 from studio.engine.skeleton import FloatArray
+from studio.engine.task_words import BLOCK, TaskWords, task_words
 from studio.engine.teaching import INDEX_TIME, MOST_NEURONS, model_as_trajectory, remark_of
 from studio.rbf import (
     Suggestion,
@@ -68,6 +69,7 @@ class Played:
     performance: Performance
     deviation: Deviation  # from the mean demonstration as sent
     remark: str = ""  # what the learner says of itself
+    task: TaskWords = BLOCK  # how one says whether it was done
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,9 +183,11 @@ def play(task: tuple[str, Settings, DemonstrationSet]) -> Played:
     name, settings, taught = task
     model = kind_of(name).model(settings).fit(*stacked(taught.rows))
     trajectory = model_as_trajectory(model, taught.duration)
-    performance = perform(trajectory, taught.duration, taught.arms, taught.mapping, taught.hands)
+    performance = perform(
+        trajectory, taught.duration, taught.arms, taught.mapping, taught.hands, taught.scene
+    )
     error = deviation(performance, taught.mean, taught.joints, taught.hands)
-    return Played(performance, error, remark_of(model))
+    return Played(performance, error, remark_of(model), task_words(taught.scene))
 
 
 def stacked(rows: FloatArray) -> tuple[FloatArray, FloatArray]:

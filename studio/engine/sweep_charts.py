@@ -110,7 +110,7 @@ def path_charts(table: Sweep) -> str:
         placed = [(path + from_floor)[:, axes].T for path in intended]
         lines = [Line(x, y, MEAN, MEAN_DASHES) for x, y in placed]
         lines += [_styled(style, *(path + from_floor)[:, axes].T) for style, path in paths]
-        boxes = _scene_boxes(Scene(arms=taught.arms), across, up)
+        boxes = _scene_boxes(taught.scene, across, up)
         charts.append(Chart(title, *labels, tuple(lines), boxes, size=(388, 300), equal=True).svg())
     keys = [("mean demonstration, as sent", Line(INDEX_TIME, INDEX_TIME, MEAN, MEAN_DASHES))]
     keys += [(f"{label_of(name)}, as measured", _key(i)) for i, name in enumerate(table.learners)]
@@ -118,16 +118,14 @@ def path_charts(table: Sweep) -> str:
 
 
 def _scene_boxes(scene: Scene, across: int, up: int) -> tuple[Box, ...]:
-    """Return the desk and the block that is to fall, seen along the third axis."""
+    """Return the desk and the blocks of the task, seen along the third axis."""
+    desk, blocks = scene.placed_desk, [scene.placed_blocks[i] for i in scene.task_blocks]
+    seen = [("desk", "#ece5da", desk.position, desk.size)]
+    seen += [(block.name, "#f0dc9c", block.position, block.size) for block in blocks]
     boxes = []
-    for name, solid, color in (
-        ("desk", scene.placed_desk, "#ece5da"),
-        ("block", scene.placed_blocks[0], "#f0dc9c"),
-    ):
-        spans = [
-            (position - size / 2.0, position + size / 2.0)
-            for position, size in zip(solid.position, solid.size, strict=True)
-        ]
+    for name, color, position, size in seen:
+        pairs = zip(position, size, strict=True)
+        spans = [(at - side / 2.0, at + side / 2.0) for at, side in pairs]
         boxes.append(Box(spans[across], spans[up], name, color))
     return tuple(boxes)
 

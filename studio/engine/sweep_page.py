@@ -18,6 +18,7 @@ from studio.engine.sweep_charts import (
     path_charts,
 )
 from studio.engine.sweep_report import as_number, label_of, settings_in_words
+from studio.engine.task_words import TaskWords, task_words
 
 _STYLE = """
 :root { color-scheme: light; }
@@ -195,7 +196,8 @@ def _contest(contestants: Sequence[Contestant]) -> str:
     )
     return (
         '<table><thead><tr><th class="name">learner</th><th class="name">settings</th>'
-        f"{_QUALITY_HEAD}<th>predict<br>[ms]</th>{_PLAYED_HEAD}</tr></thead>"
+        f"{_QUALITY_HEAD}<th>predict<br>[ms]</th>{_played_head(contestants[0].played.task)}"
+        "</tr></thead>"
         f"<tbody>{rows}</tbody></table>"
     )
 
@@ -220,20 +222,23 @@ def _played_table(table: Sweep) -> str:
     )
     return (
         '<table><thead><tr><th class="name">Baxter alone</th><th>neurons</th>'
-        f"{_PLAYED_HEAD}</tr></thead><tbody>{rows}</tbody></table>{remarks}"
+        f"{_played_head(task_words(table.taught.scene))}</tr></thead>"
+        f"<tbody>{rows}</tbody></table>{remarks}"
     )
 
 
-_PLAYED_HEAD = (
-    '<th>hand’s<br>error [mm]</th><th>time<br>warped</th><th class="name">the<br>block</th>'
-)
+def _played_head(task: TaskWords) -> str:
+    return (
+        "<th>hand’s<br>error [mm]</th><th>time<br>warped</th>"
+        f'<th class="name">the<br>{task.what}</th>'
+    )
 
 
 def _played_cells(played: Played) -> str:
     error = played.deviation
     return (
         f"<td>{1000.0 * error.hand_mean:.1f}</td><td>{1000.0 * error.hand_dtw:.1f}</td>"
-        f'<td class="name">{"falls" if played.performance.block_down else "stays up"}</td>'
+        f'<td class="name">{played.task.verb[not played.performance.done]}</td>'
     )
 
 

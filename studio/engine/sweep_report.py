@@ -109,23 +109,24 @@ def _quality_line(quality: Quality) -> str:
 
 
 def _played_line(played: Played) -> str:
-    down = "the block falls" if played.performance.block_down else "the block stays up"
-    off = f"{down}, the hand is {1000.0 * played.deviation.hand_mean:.1f} mm off in the mean."
+    event = played.task.event[not played.performance.done]
+    off = f"{event}, the hand is {1000.0 * played.deviation.hand_mean:.1f} mm off in the mean."
     guarded = in_guards_words(played.performance)
     off = f"{off}\n  ({guarded})" if guarded else off
     return f"{off}\n  ({played.remark})" if played.remark else off
 
 
 def _comparison_lines(contestants: Sequence[Contestant]) -> list[str]:
+    what = contestants[0].played.task.what
     lines = [
         f"Learners at the best of {BUDGET} settings each, by leaving out one demonstration:",
-        f"  {'learner':13s} {_QUALITY_HEADER}  predict [ms]  block  settings",
+        f"  {'learner':13s} {_QUALITY_HEADER}  predict [ms]  {what:9s}  settings",
     ]
     for each in contestants:
-        down = "falls" if each.played.performance.block_down else "stays"
+        verb = each.played.task.verb[not each.played.performance.done]
         lines.append(
             f"  {each.kind.name:13s} {_quality_line(each.quality)}  "
-            f"{1000.0 * each.quality.predict_seconds:12.2f}  {down:5s}  {settings_in_words(each)}"
+            f"{1000.0 * each.quality.predict_seconds:12.2f}  {verb:9s}  {settings_in_words(each)}"
         )
     return lines
 
@@ -173,6 +174,7 @@ def _quality(joints: Sequence[str], quality: Quality) -> dict[str, Any]:
 def _played(played: Played) -> dict[str, Any]:
     return {
         "block_down": played.performance.block_down,
+        "task_done": played.performance.done,
         "guarded_ticks": played.performance.guarded_ticks,
         "refusal": played.performance.refusal,
         "remark": played.remark,

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, Protocol
 
 import numpy as np
@@ -9,6 +10,8 @@ import numpy as np
 from studio.engine.demonstration import SAMPLES, Demonstration, DemonstrationSet, resample
 from studio.engine.errors import StudioError
 from studio.engine.field_motion import OnePlainField, PushAndReturn
+from studio.engine.hands import HandTrack
+from studio.engine.learned_hands import learned_hands
 from studio.engine.measures import Deviation, deviation
 from studio.engine.performance import (
     Performance,
@@ -17,6 +20,7 @@ from studio.engine.performance import (
     perform,
     rows_as_trajectory,
 )
+from studio.engine.scene import Scene
 from studio.engine.skeleton import FloatArray
 from studio.rbf import NewrbRegressor, RBFRegressor, pooled_variance_floor
 
@@ -77,6 +81,11 @@ class Lesson:
         """Return the network's output over the demonstrations' mean duration."""
         return model_as_trajectory(self.model, self.taught.duration)
 
+    @cached_property
+    def hands(self) -> HandTrack | None:
+        """What the hands do meanwhile, the grip learned by as many neurons; None without hands."""
+        return learned_hands(self.taught, LEARNERS["rbf"](self.settings.neurons), INDEX_TIME)
+
 
 @dataclass(frozen=True, eq=False)
 class Reproduction:
@@ -122,27 +131,34 @@ def learn(taught: DemonstrationSet, settings: LearnerSettings) -> Lesson:
     return Lesson(settings, taught, model, curve, mse, floor.value, floor.reason, remark_of(model))
 
 
-def reproduce(lesson: Lesson) -> Reproduction:
-    """Let the robot do alone what it learned, in a fresh world."""
+def reproduce(lesson: Lesson, scene: Scene | None = None) -> Reproduction:
+    """Let the robot do alone what it learned, in a fresh world, in the scene where it was taught.
+
+    ``scene`` is another one.
+    """
     taught = lesson.taught
-    performance = perform(
-        lesson.trajectory(), taught.duration, taught.arms, taught.mapping, taught.hands
-    )
-    error = deviation(performance, taught.mean, taught.joints, taught.hands)
+    trajectory, where = lesson.trajectory(), scene or taught.scene
+    how = (taught.duration, taught.arms, taught.mapping, lesson.hands)
+    performance = perform(trajectory, *how, where)
+    error = deviation(performance, taught.mean, taught.joints, lesson.hands)
     return Reproduction(performance, error)
 
 
-def replay(demonstration: Demonstration, rows: FloatArray | None = None) -> Replay:
+def replay(
+    demonstration: Demonstration, rows: FloatArray | None = None, scene: Scene | None = None
+) -> Replay:
     """Play a demonstration back, raw and resampled, each in a fresh world.
 
     The difference of the two measures the paper's claim that its interpolation has no effect on the
-    robot's trajectory. ``rows`` (142, D) [rad] are its resampled rows, even ones by default.
+    robot's trajectory. ``rows`` (142, D) [rad] are its resampled rows, even ones by default;
+    ``scene`` is the one in which it was taught, unless given.
     """
+    scene = scene or demonstration.scene
     rows = resample(demonstration) if rows is None else rows
     arms, mapping, duration = demonstration.arms, demonstration.mapping, demonstration.duration
     hands = demonstration.hands
-    raw = perform(demonstration.trajectory(), duration, arms, mapping, hands)
-    resampled = perform(rows_as_trajectory(rows, duration), duration, arms, mapping, hands)
+    raw = perform(demonstration.trajectory(), duration, arms, mapping, hands, scene)
+    resampled = perform(rows_as_trajectory(rows, duration), duration, arms, mapping, hands, scene)
     measured = resampled.measured_at(np.linspace(0.0, duration, SAMPLES))
     measured = measured[:, joint_columns(demonstration.joints)]
     return Replay(resampled, deviation(raw, measured, demonstration.joints, hands))

@@ -12,6 +12,7 @@ from typing import Literal
 from studio.engine import commands
 from studio.engine.choices import Choices
 from studio.engine.commands import Command
+from studio.engine.scene import DEFAULT_SCENE
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.teaching import LearnerSettings
 
@@ -108,7 +109,8 @@ FAREWELL = (
 def _prepare(now: Snapshot) -> tuple[Command, ...]:
     """Return how to begin: as the paper does, and with nobody else's demonstrations."""
     left_out = tuple(commands.Include(e.number, False) for e in now.entries if e.included)
-    chosen = () if now.choices == Choices() else (commands.Configure(Choices()),)
+    usual = (commands.ChooseScene(DEFAULT_SCENE), commands.Configure(Choices()))
+    chosen = () if now.choices == Choices() else usual
     return commands.Stop(), *chosen, *left_out, commands.UseDemonstrator()
 
 
@@ -179,7 +181,7 @@ def _failed(now: Snapshot) -> str:
     done = now.reproduction
     if done is None:
         return "Baxter does what a single neuron learned. Will the block fall?"
-    if done.performance.block_down:
+    if done.performance.done:
         return "It fell all the same: these takes are alike enough. Others will not be."
     return "The block stays up: one neuron is too few, as its error said before."
 

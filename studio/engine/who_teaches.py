@@ -16,6 +16,7 @@ from studio.engine.puppet import PuppetTeacher
 from studio.engine.reading import Reading
 from studio.engine.recording import Recording
 from studio.engine.robot import CONTROL_PERIOD
+from studio.engine.scene import USUAL, Scene
 from studio.engine.skeleton import SIDES, HandState
 from studio.engine.snapshot import SourceStatus
 from studio.engine.sources import SkeletonRecording
@@ -50,6 +51,7 @@ class WhoTeaches:
         self.chosen: Teacher | None = None
         self._seed, self._take = seed, 0
         self._demonstrator: Teacher | None = None  # its newest take
+        self._scene = USUAL  # what the demonstrator is to do
         self._live = None if live is None else LiveTeacher(live)
         self.puppet = PuppetTeacher()
         self._choices = 0  # made so far, of anything but files
@@ -101,9 +103,26 @@ class WhoTeaches:
     def use_demonstrator(self) -> str:
         """Choose the demonstrator's next take."""
         self._take += 1
-        words = self.use_stream(demonstrate(self._seed, self._take))
+        words = self.use_stream(demonstrate(self._seed, self._take, scene=self._scene))
         self._demonstrator = self.chosen
         return words
+
+    def in_scene(self, scene: Scene) -> str:
+        """Have the demonstrator do another scene's task; return in words what is to be done now.
+
+        Raises
+        ------
+        StudioError
+            Where it is who teaches, and does not know how.
+        """
+        before, self._scene = self._scene, scene
+        if scene == before:
+            return ""
+        words = f"Scene {scene.name}: {scene.words}"
+        if self._demonstrator is None or self.chosen is not self._demonstrator:
+            return words
+        self.chosen = self._demonstrator = None
+        return f"{words} {self.use_demonstrator()}"
 
     def show_again(self) -> None:
         """Have the demonstrator show another take, if it is who teaches; others do so anyway.

@@ -9,7 +9,9 @@ import viser
 from studio.engine.clock import LiveLoop, now
 from studio.engine.commands import Command
 from studio.engine.errors import StudioError
+from studio.engine.seat import Seat
 from studio.engine.snapshot import Snapshot
+from studio.engine.uploads import Uploads
 from studio.panels.arcs import ArcsView
 from studio.panels.control import Control
 from studio.panels.first_page import TITLE
@@ -19,7 +21,6 @@ from studio.panels.meshes import FINE
 from studio.panels.page import Page
 from studio.panels.scene import SceneView
 from studio.panels.tour import Guide
-from studio.panels.uploads import Uploads
 from studio.panels.visitors import turn_strangers_away
 
 FRAME = 1.0 / 30.0  # [s] between two pictures of the scene
@@ -45,6 +46,8 @@ class App:
     detail
         How fine Baxter is drawn [m]; 0.02 is plain, and ten times lighter for a browser that draws
         without a graphics card.
+    seat
+        Who controls, where programs may as well as browsers.
 
     Raises
     ------
@@ -53,7 +56,12 @@ class App:
     """
 
     def __init__(
-        self, loop: LiveLoop, host: str = "127.0.0.1", port: int = 8080, detail: float = FINE
+        self,
+        loop: LiveLoop,
+        host: str = "127.0.0.1",
+        port: int = 8080,
+        detail: float = FINE,
+        seat: Seat | None = None,
     ) -> None:
         self._loop, self._host = loop, host
         with _quiet():
@@ -66,7 +74,7 @@ class App:
             raise
         self._uploads = Uploads()
         self._guide = Guide(self._send, now)
-        self._control = Control(self._server, self._by_hand, now)
+        self._control = Control(self._server, self._by_hand, now, seat)
         post = self._control.post
         # A browser hears of everything in the order in which it was made: of the robot first.
         self.scene = SceneView(self._server, detail, post)
@@ -123,6 +131,8 @@ class App:
 
     def _deliver(self, name: str, content: bytes) -> None:
         """Send a file to the browser in control, or to all where nobody is."""
+        if self._control.is_elsewhere:  # the program that asked for it fetches it
+            return
         to = self._control.holder() or self._server
         to.send_file_download(name, content, save_immediately=True)
 
@@ -148,6 +158,8 @@ class App:
         self.page.draw(snapshot)
         self.page.tell_pace(self._loop.pace)
         self._control.draw()
+        if self._control.is_elsewhere:
+            self._guide.interrupt()
         if self.scene.lacks_meshes:
             self.page.messages.notify(_NO_MESHES)
 

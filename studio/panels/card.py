@@ -9,6 +9,7 @@ from studio.engine.arms import in_words
 from studio.engine.demonstration import SHORTEST
 from studio.engine.entry import LONGEST_NAME, Entry
 from studio.engine.robot import CONTROL_PERIOD
+from studio.engine.scene import DEFAULT_SCENE, Scene
 from studio.panels import markup
 from studio.panels.flags import explained, verdict
 from studio.panels.inputs import Post
@@ -117,9 +118,9 @@ def pictured(entry: Entry) -> str:
     """Return what a demonstration is, as HTML: figures, and its joints over time."""
     shown = entry.demonstration
     kept = f" of {entry.whole.duration:.1f}" if entry.is_trimmed else ""
-    block = "✔ block down" if entry.block_down else "✖ block stands"
+    block = f"{'✔' if entry.done else '✖'} {entry.task.state[not entry.done]}"
     figures = f"{shown.duration:.1f}{kept} s · {block} · {verdict(entry)}"
-    how = f"{in_words(shown.arms)}, {shown.mapping} mapping"
+    how = f"{in_words(shown.arms)}, {shown.mapping} mapping{_where(shown.scene)}"
     style = f"flex:0 0 {_LABELS}em;font-size:.8em;line-height:1.35;align-self:center"
     return markup.block(
         f'<div style="font-weight:600">{markup.text(figures)}</div>'
@@ -127,3 +128,8 @@ def pictured(entry: Entry) -> str:
         f'<div style="display:flex"><div style="{style}">{legend(shown.joints)}</div>'
         f'<div style="flex:1">{sparkline(entry)}</div></div>'
     )
+
+
+def _where(scene: Scene) -> str:
+    """Return in which scene it was taught, where that is not the paper's."""
+    return "" if scene.name == DEFAULT_SCENE else f", scene {scene.name}"

@@ -16,6 +16,7 @@ from studio.panels import markup
 from studio.panels.chooser import DemonstrationChooser
 from studio.panels.inputs import Post
 from studio.panels.readiness import why_not_keep, why_not_play, why_not_put_back, why_not_replay
+from studio.panels.tryout import TryoutPart
 
 
 class ComparePanel:
@@ -39,6 +40,8 @@ class ComparePanel:
         self._replay.on_click(lambda _: post(commands.PlayDemonstration()))
         self._notes = gui.add_html("")
         gui.add_divider()
+        self._tryout = TryoutPart(gui, post)
+        gui.add_divider()
         self._block = BlockPart(gui, post)
         gui.add_divider()
         self._second = SecondPart(gui, post)
@@ -51,6 +54,7 @@ class ComparePanel:
         self._notes.content = markup.reasons([play, replay])
         self._chooser.draw(now)
         self._result.content = outcome(now)
+        self._tryout.draw(now)
         self._block.draw(now)
         self._second.draw(now)
         self._field.draw(now)
@@ -167,7 +171,7 @@ def is_robot(column: Measured) -> bool:
 
 def verdict(column: Measured, is_one_of_two: bool) -> str:
     """Return what a robot made of the block."""
-    words = "✔ The block is down." if column.block_down else "✖ The block still stands."
+    words = column.task.judged(column.done, column.missing)
     return f"{column.letter}: {words}" if is_one_of_two else words
 
 
@@ -178,12 +182,13 @@ def guarded(column: Measured, is_one_of_two: bool) -> str:
 
 def blocks_shown(entries: Sequence[Entry]) -> str:
     """Return what became of the block in each demonstration that is learned from."""
+    included = [entry for entry in entries if entry.included]
     shown = [
-        f"{entry.number} {'✔ down' if entry.block_down else '✖ stands'}".replace(" ", "\u00a0")
-        for entry in entries
-        if entry.included
+        f"{entry.number} {entry.task.marked(entry.done)}".replace(" ", "\u00a0")
+        for entry in included
     ]
-    return f"The block in the demonstrations: {', '.join(shown)}." if shown else ""
+    what = included[0].task.what if included else ""
+    return f"The {what} in the demonstrations: {', '.join(shown)}." if shown else ""
 
 
 def measured(table: Sequence[Measured], joints: Sequence[str]) -> str:
@@ -198,7 +203,7 @@ def measured(table: Sequence[Measured], joints: Sequence[str]) -> str:
         ("hand, largest [mm]", *(f"{1e3 * each.deviation.hand_max:.1f}" for each in table)),
         ("hand, warped [mm]", *(f"{1e3 * each.deviation.hand_dtw:.1f}" for each in table)),
         ("acceleration [m/s²]", *(f"{each.acceleration:.2f}" for each in table)),
-        ("block", *("✔ down" if each.block_down else "✖ stands" for each in table)),
+        (table[0].task.what, *(each.task.marked(each.done) for each in table)),
     ]
     names = "; ".join(f"{column.letter or 'shown'}: {column.name}" for column in table)
     return markup.table(head, rows) + markup.note(names)

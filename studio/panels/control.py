@@ -9,10 +9,10 @@ import viser
 from studio.engine import commands
 from studio.engine.commands import Command
 from studio.engine.errors import StudioError
+from studio.engine.seat import Seat
 from studio.panels import markup
 from studio.panels.hearing import hear, speaker
 from studio.panels.inputs import Post
-from studio.panels.seat import Seat
 
 ORDER = -10.0  # under the state and Stop, above all else
 CLOSED = "The page that controlled Baxter was closed or lost its line, so Baxter was let go."
@@ -30,11 +30,19 @@ class Control:
         Where commands go that are not refused.
     now
         The time [s].
+    seat
+        Who controls, browsers and programs; its own where there are no programs.
     """
 
-    def __init__(self, server: viser.ViserServer, post: Post, now: Callable[[], float]) -> None:
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        post: Post,
+        now: Callable[[], float],
+        seat: Seat | None = None,
+    ) -> None:
         self._server, self._post, self._now = server, post, now
-        self._seat = Seat()
+        self._seat = Seat() if seat is None else seat
         self._bars: dict[int, _Bar] = {}
         self._told: dict[int, float] = {}  # [s] when a browser was last refused
         self._lock = threading.Lock()  # of the bars
@@ -58,7 +66,12 @@ class Control:
     def holder(self) -> viser.ClientHandle | None:
         """Return the browser in control."""
         held = self._seat.holder
-        return None if held is None else self._server.get_clients().get(held)
+        return self._server.get_clients().get(held) if isinstance(held, int) else None
+
+    @property
+    def is_elsewhere(self) -> bool:
+        """Whether a program controls, and no browser."""
+        return isinstance(self._seat.holder, str)
 
     def draw(self) -> None:
         """Tell each browser its role."""

@@ -106,12 +106,12 @@ def across(neurons: int) -> float:
 
 
 def _block(tried: Tried) -> str:
-    down, x = tried.point.block_down, across(tried.point.neurons)
+    down, x = tried.point.done, across(tried.point.neurons)
     wide, high = (_TALL, _THIN) if down else (_THIN, _TALL)
-    told = "fell" if down else "stays up"
+    told = tried.point.task.event[not down]
     guess = "" if tried.guess is None else "✓" if tried.right else "✗"
     return (
-        f"<g><title>{tried.point.neurons} neurons: it {told}</title>"
+        f"<g><title>{tried.point.neurons} neurons: {told}</title>"
         f'<rect x="{x - wide / 2:.1f}" y="{_GROUND - high}" width="{wide}" height="{high}" '
         f'fill="{css(NETWORK)}" stroke="{_INK}" stroke-width=".8"/>'
         f'<text x="{x:.1f}" y="{_GROUND - _TALL - 5}" class="middle">{guess}</text></g>'

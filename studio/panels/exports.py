@@ -11,11 +11,11 @@ from studio.engine import commands
 from studio.engine.errors import FileError
 from studio.engine.export import KINDS
 from studio.engine.snapshot import Snapshot
+from studio.engine.uploads import Uploads, shown_name
 from studio.panels import markup
 from studio.panels.inputs import Post
 from studio.panels.readiness import why_not_export
 from studio.panels.replay_page import REPLAY
-from studio.panels.uploads import Uploads, shown_name
 
 ARCHIVE = "studio-export.zip"  # of several files; a session's own archive never is in there
 Deliver = Callable[[str, bytes], None]  # a file's name and content, to whoever asked for it

@@ -6,9 +6,9 @@ from studio.engine import commands
 from studio.engine.errors import FileError
 from studio.engine.reading import ReadingStatus
 from studio.engine.snapshot import Snapshot
+from studio.engine.uploads import LARGEST, Uploads, shown_name
 from studio.panels import markup
 from studio.panels.inputs import Post, on_choice, show_value
-from studio.panels.uploads import LARGEST, Uploads, shown_name
 
 NEAREST = "nearest to the sensor"
 

@@ -6,11 +6,15 @@ from studio.engine import commands
 from studio.engine.findings import FEWEST_GUESSES, Tried
 from studio.engine.learning_status import LearningStatus
 from studio.engine.snapshot import Snapshot
+from studio.engine.task_words import BLOCK, TASK, TaskWords, task_words
 from studio.panels import markup
 from studio.panels.inputs import Post
 from studio.panels.readiness import why_not_train
 
-_YES, _NO = "Yes, it falls", "No, it stays"
+_ANSWERS = {
+    BLOCK: ("Yes, it falls", "No, it stays"),
+    TASK: ("Yes, it does", "No, it does not"),
+}
 
 
 class Guessing:
@@ -20,17 +24,24 @@ class Guessing:
         self._learning: LearningStatus | None = None
         self._post = post
         self._question = gui.add_html("")
-        self._answer = gui.add_button_group("Will it fall?", (_YES, _NO))
+        self._task = BLOCK
+        self._answer = gui.add_button_group("Will it fall?", _ANSWERS[BLOCK])
         self._score = gui.add_html("")
         self._all = gui.add_button("Show all counts", icon=viser.Icon.EYE)
-        self._answer.on_click(lambda _: self._guess(falls=self._answer.value == _YES))
+        self._answer.on_click(
+            lambda _: self._guess(falls=self._answer.value == _ANSWERS[self._task][0])
+        )
         self._all.on_click(lambda _: self._reveal())
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
         self._learning = now.learning
         refusal = why_not_train(now)
-        self._question.content = question(now.learning, refusal)
+        task = task_words(now.choices.scene)
+        if task is not self._task:
+            self._task, self._answer.options = task, _ANSWERS[task]
+            self._answer.label = "Will it fall?" if task is BLOCK else "Will it?"
+        self._question.content = question(now.learning, refusal, task)
         # viser cannot disable a group; why it is not there is said in its place.
         self._answer.visible = not refusal and now.learning.outcome is None
         self._score.content = score(now.learning)
@@ -46,7 +57,7 @@ class Guessing:
             self._post(commands.RevealBlocks(self._learning.chosen.name))
 
 
-def question(learning: LearningStatus, refusal: str) -> str:
+def question(learning: LearningStatus, refusal: str, task: TaskWords = BLOCK) -> str:
     """Return the question, or its answer where somebody has guessed."""
     neurons = learning.chosen.neurons
     at = f"At <b>{neurons} neuron{'s' if neurons > 1 else ''}</b>"
@@ -55,7 +66,7 @@ def question(learning: LearningStatus, refusal: str) -> str:
         return markup.block(f"{at} {_answer(known, learning)}") + markup.note(
             "Move the slider to another number to guess again; 4 Compare shows it on the robot."
         )
-    return markup.block(f"{at}: will the block fall?") + (
+    return markup.block(f"{at}: {task.question}") + (
         markup.reasons([refusal])
         or markup.note("Say it first; then Baxter tries it behind the scenes, in about a second.")
     )
@@ -63,10 +74,10 @@ def question(learning: LearningStatus, refusal: str) -> str:
 
 def _answer(known: Tried, learning: LearningStatus) -> str:
     point = known.point
-    fell = "<b>▬ the block falls</b>" if point.block_down else "<b>▮ the block stays up</b>"
+    fell = f"<b>{'▬' if point.done else '▮'} {point.task.event[not point.done]}</b>"
     guess = ""
     if known.guess is not None:
-        said = "it falls" if known.guess else "it stays up"
+        said = point.task.said[not known.guess]
         guess = f" You said: {said} {'✓' if known.right else '✗'}"
     floor = learning.curve.floor
     ratio = f", {point.mse / floor:.3g} × the floor" if floor else ""
@@ -94,13 +105,13 @@ def _lesson(learning: LearningStatus) -> str:
         (each.point for each in learning.tried if each.learner == learning.chosen.name),
         key=lambda point: point.neurons,
     )
-    standing = [point.neurons for point in tried if not point.block_down]
-    enough = [p for p in tried if p.block_down and p.neurons > max(standing, default=0)]
+    standing = [point.neurons for point in tried if not point.done]
+    enough = [p for p in tried if p.done and p.neurons > max(standing, default=0)]
     floor = learning.curve.floor
     if not standing or not enough or not floor:
         return ""
     few = enough[0]
     return markup.note(
-        f"Of those tried, from {few.neurons} neurons on the block falls. There the MSE is still "
-        f"{few.mse / floor:.3g} × the floor: a small error and a task done are two things."
+        f"Of those tried, from {few.neurons} neurons on {few.task.event[0]}. There the MSE is "
+        f"still {few.mse / floor:.3g} × the floor: a small error and a task done are two things."
     )

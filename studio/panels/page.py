@@ -8,6 +8,7 @@ import viser
 from studio.engine.pace import Pace
 from studio.engine.snapshot import Snapshot
 from studio.engine.tour import Step
+from studio.engine.uploads import Uploads
 from studio.panels.arcs import ArcsView
 from studio.panels.compare import ComparePanel
 from studio.panels.exports import Deliver, ExportPanel
@@ -17,13 +18,13 @@ from studio.panels.inputs import Post
 from studio.panels.learn import LearnPanel
 from studio.panels.pace import PaceLine
 from studio.panels.plots import EvidencePanel
+from studio.panels.robot_link import RobotLine
 from studio.panels.source import SourcePanel
 from studio.panels.status import MessagePanel, StatusPanel
 from studio.panels.steps import Steps
 from studio.panels.teach import TeachPanel
 from studio.panels.timeline import TimelinePanel
 from studio.panels.tour import Guide, TourCaption, TourInvitation
-from studio.panels.uploads import Uploads
 from studio.panels.view import ViewPanel
 
 STEPS_WIDTH, STATE_WIDTH, FLOATING_WIDTH = 372, 372, 420  # [px]; half of 1366 is the scene's
@@ -84,7 +85,7 @@ class Page:
         self._stage = 0  # of the tour, whose step was opened last
         status, gate = StatusPanel(gui, post), GatePanel(gui, post)
         self._caption = TourCaption(gui, self._leave)
-        self.messages = MessagePanel(gui)
+        self.messages, robot = MessagePanel(gui), RobotLine(gui)
         late = PaceLine(gui, always=False)
         self._add_steps(gui, post, uploads, arcs, deliver)
         evidence, playing = gui.add_panel(), gui.add_panel()
@@ -97,7 +98,7 @@ class Page:
             gui.add_html(_NARROW)
             timeline = TimelinePanel(gui, post)
         hotkeys = self._add_hotkeys(gui, post)
-        self._always = (status, gate, self.messages, plots, timeline, hotkeys)
+        self._always = (status, gate, self.messages, robot, plots, timeline, hotkeys)
         self._steps_panel.dock_left()
         self._steps_panel.set_width(STEPS_WIDTH)
         gui.main_panel.dock_right()

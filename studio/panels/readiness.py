@@ -6,9 +6,12 @@ Each ``why_not_...`` returns nothing where the thing can be done.
 from studio.engine.arms import in_words
 from studio.engine.entry import Entry
 from studio.engine.export.kind import WITHOUT_LESSON
+from studio.engine.scene import DEFAULT_SCENE
 from studio.engine.snapshot import Mode, Snapshot
+from studio.engine.task_words import task_words
 
 CALIBRATING = "Baxter waits while you calibrate: press Stop first."
+DRIVEN = "A program drives Baxter: press Stop first."
 FOLLOWING = (Mode.WATCHING, Mode.ARMED, Mode.RECORDING)
 
 
@@ -21,6 +24,8 @@ def why_not_configure(now: Snapshot) -> str:
     """Return why arms, mapping, gate and hands cannot be changed."""
     if now.mode is Mode.CALIBRATING:
         return CALIBRATING
+    if now.mode is Mode.DRIVEN:
+        return DRIVEN
     return "Stop first: this stays as it is while somebody teaches." if _follows(now) else ""
 
 
@@ -30,6 +35,8 @@ def why_not_calibrate(now: Snapshot) -> str:
         return "Choose a source first, to stand before it."
     if now.mode is Mode.PLAYING:
         return "Baxter is playing: press Stop first."
+    if now.mode is Mode.DRIVEN:
+        return DRIVEN
     if now.mode is Mode.CALIBRATING:
         return ""  # the progress says enough; pressed again, it begins anew
     return _why_not_while_taught(now)
@@ -48,6 +55,8 @@ def why_not_teach(now: Snapshot) -> str:
         return "Baxter is playing: press Stop first."
     if now.mode is Mode.CALIBRATING:
         return CALIBRATING
+    if now.mode is Mode.DRIVEN:
+        return DRIVEN
     return "Somebody teaches already: press Stop first." if _follows(now) else ""
 
 
@@ -127,7 +136,8 @@ def next_step(now: Snapshot) -> str:
         words
         for applies, words in (
             (_follows(now), "watch the gate; Stop ends it and keeps what was recorded."),
-            (now.mode is Mode.PLAYING, "watch the block."),
+            (now.mode is Mode.PLAYING, f"watch the {task_words(now.scene).watched}."),
+            (now.mode is Mode.DRIVEN, "a program drives Baxter; Stop ends it."),
             (now.mode is Mode.CALIBRATING, "stand as it says; Stop gives up."),
             (now.mode is Mode.TRAINING, "wait until it has learned; Stop gives up."),
             (learned and not done, "4 Compare: let Baxter do it alone."),
@@ -165,9 +175,11 @@ def _can_take_stream(now: Snapshot) -> bool:
 
 
 def _of_kind(now: Snapshot) -> list[Entry]:
-    arms, mapping = now.choices.arms, now.choices.mapping
-    return [entry for entry in now.entries if entry.is_of(arms, mapping)]
+    kind = now.choices.arms, now.choices.mapping, now.choices.scene.name
+    return [entry for entry in now.entries if entry.is_of(*kind)]
 
 
 def _wanted(now: Snapshot) -> str:
-    return f"{in_words(now.choices.arms)} with the {now.choices.mapping} mapping"
+    scene = now.choices.scene.name
+    where = "" if scene == DEFAULT_SCENE else f" in the scene {scene}"
+    return f"{in_words(now.choices.arms)} with the {now.choices.mapping} mapping{where}"

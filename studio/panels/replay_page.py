@@ -102,6 +102,7 @@ class _Stage:
         detail: float,
     ) -> None:
         self._server, self._shown, self._ghost = server, reproduction.performance, ghost
+        self._scene = lesson.taught.scene
         set_the_stage(server)
         self._robot = RobotView(server.scene, detail)
         self._ghosts: dict[Side, GhostView] = {
@@ -130,7 +131,7 @@ class _Stage:
     def _draw(self, number: int) -> None:
         tick = self._shown.ticks[number]
         self._robot.draw(tick.world.joint_positions, tick.world.fingers)
-        self._furniture.draw(self._shown.arms, tick.world.block_poses)
+        self._furniture.draw(self._scene, tick.world.block_poses)
         share = min(max(tick.time, 0.0) / self._shown.duration, 1.0)
         body = demonstration_at(self._ghost, share * self._ghost.duration).joints
         for side, ghost in self._ghosts.items():

@@ -38,7 +38,7 @@ class SecondRobot:
             return
         self._load()
         self._root.position = (0.0, FURTHER if now.compare.field is not None else ASIDE, 0.0)
-        self._furniture.draw(now.choices.arms, world.block_poses)
+        self._furniture.draw(now.scene, world.block_poses)
         if self._robot is not None:
             self._robot.draw(world.joint_positions, world.fingers)
 

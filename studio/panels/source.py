@@ -7,6 +7,7 @@ import viser
 from studio.engine import commands
 from studio.engine.resources import samples_folder
 from studio.engine.snapshot import Snapshot
+from studio.engine.uploads import Uploads
 from studio.panels import markup, streams
 from studio.panels.arcs import ArcsView
 from studio.panels.arm_angles import ArmAnglesPanel
@@ -14,8 +15,9 @@ from studio.panels.calibration import CalibrationPanel
 from studio.panels.files import FilePanel, ReadingPanel
 from studio.panels.inputs import Post
 from studio.panels.puppet import PuppetPanel
+from studio.panels.robot_link import RobotPanel
+from studio.panels.scene_choice import SceneChoice
 from studio.panels.settings import SettingsPanel
-from studio.panels.uploads import Uploads
 
 
 class SourcePanel:
@@ -28,6 +30,8 @@ class SourcePanel:
         self._puppet = PuppetPanel(gui, post)
         self._add_ready_made(gui)
         self._file = FilePanel(gui, post, uploads)
+        with gui.add_folder("What there is to do: the scene", expand_by_default=False):
+            self._scene = SceneChoice(gui, post)
         self._sensor = gui.add_folder("A sensor: live stream, webcam", expand_by_default=False)
         with self._sensor:
             self._add_live(gui)
@@ -36,6 +40,8 @@ class SourcePanel:
             self._calibration = CalibrationPanel(gui, post)
         with gui.add_folder("Your arm's six angles", expand_by_default=False):
             self._angles = ArmAnglesPanel(gui, arcs)
+        with gui.add_folder("A robot beyond the simulator", expand_by_default=False):
+            self._robot = RobotPanel(gui, post)
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
@@ -43,18 +49,20 @@ class SourcePanel:
         self._reading.draw(now)
         self._puppet.draw(now)
         self._file.draw(now)
+        self._scene.draw(now)
         self._sensor.visible = now.live is not None
         self._live.content = streams.described(now.live)
         self._how.content = streams.instructions(now.live)
         self._settings.draw(now)
         self._calibration.draw(now)
         self._angles.draw(now)
+        self._robot.draw(now)
 
     def _add_ready_made(self, gui: viser.GuiApi) -> None:
         """Add who is there without anybody's doing."""
         demonstrator = gui.add_button(
             "Take the demonstrator",
-            hint="A built-in person who signs and pushes the block; each take differs a little",
+            hint="A built-in person who signs and does the task; each take differs a little",
             icon=viser.Icon.USER,
             color="gray",
         )

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import viser
 
-from studio.engine.arms import Arms
 from studio.engine.skeleton import FloatArray
 from studio.engine.world import Scene
 from studio.panels.poses import w_first
 from studio.panels.viewpoint import ALONE
+from studio.panels.zones import draw_zones
 
 _BLOCK_COLORS = ((244, 180, 40), (120, 150, 175), (150, 165, 120))
 _DESK_COLOR, _LEG = (188, 160, 128), 0.05  # [m]
@@ -18,19 +18,22 @@ _SKY, _GROUND = (238, 241, 245), (190, 201, 211)
 
 
 class Furniture:
-    """The desk and the blocks, as they stand for what is taught, under ``root`` in the tree."""
+    """The desk, its zones and the blocks of a scene, under ``root`` in the tree."""
 
     def __init__(self, scene: viser.SceneApi, root: str = "") -> None:
         self._scene, self._root = scene, root
-        self._arms: Arms | None = None  # for which it stands
-        self.blocks: list[viser.BoxHandle] = []  # the first is the task's; others for other arms
+        self._look: object = None  # all of a scene that is drawn here, but where its blocks are
+        self.blocks: list[viser.BoxHandle] = []  # as the scene lists them; others in another scene
+        self._zones: list[viser.SceneNodeHandle] = []
         self._drawn = np.zeros((0, 7))  # poses
 
-    def draw(self, arms: Arms, poses: FloatArray) -> None:
+    def draw(self, placed: Scene, poses: FloatArray) -> None:
         """Put the blocks where poses (B, 7), x y z [m] qx qy qz qw, have them."""
-        if arms != self._arms:
-            self._arms = arms
-            self._furnish(Scene(arms=arms))
+        sizes = tuple(block.size for block in placed.blocks)
+        look = (placed.placed_desk, placed.placed_zones, sizes)
+        if look != self._look:
+            self._look = look
+            self._furnish(placed)
         for block, before, pose in zip(self.blocks, self._drawn, poses, strict=True):
             if np.abs(pose - before).max() > STILL:
                 block.position, block.wxyz = pose[:3], w_first(pose[3:])
@@ -38,6 +41,8 @@ class Furniture:
 
     def _furnish(self, placed: Scene) -> None:
         scene, root = self._scene, self._root
+        for node in (*self._zones[::-1], *self.blocks):
+            node.remove()
         (x, y, z), (length, width, thick) = placed.placed_desk.position, placed.placed_desk.size
         scene.add_box(
             f"{root}/desk", color=_DESK_COLOR, dimensions=(length, width, thick), position=(x, y, z)
@@ -59,6 +64,7 @@ class Furniture:
             )
             for number, block in enumerate(placed.placed_blocks)
         ]
+        self._zones = draw_zones(scene, placed, root)
         self._drawn = np.full((len(self.blocks), 7), np.inf)
 
 

@@ -21,6 +21,7 @@ _PILLS: dict[Mode, tuple[str, str, Color]] = {
     Mode.PLAYING: ("▶", "PLAYING", (28, 100, 180)),
     Mode.CALIBRATING: ("◎", "CALIBRATING", (140, 85, 20)),
     Mode.TRAINING: ("◐", "TRAINING", (125, 60, 130)),
+    Mode.DRIVEN: ("⬢", "DRIVEN", (20, 105, 115)),
 }
 
 
@@ -93,8 +94,9 @@ def _beside(now: Snapshot) -> tuple[str, ...]:
         return _computed(now)
     # A live stream has no end to tell of.
     clock = f"{now.time:.0f} of {now.duration:.0f} s" if now.duration else f"{now.time:.0f} s"
-    if now.mode is Mode.PLAYING:
-        return ("Baxter alone" if now.alone else "a demonstration"), clock
+    if now.mode in (Mode.PLAYING, Mode.DRIVEN):
+        by_itself = "Baxter alone" if now.alone else "a demonstration"
+        return "by a program" if now.mode is Mode.DRIVEN else by_itself, clock
     if now.calibrating is not None:
         return f"{100 * now.calibrating.share:.0f} %", clock
     if now.held == COMING:

@@ -7,6 +7,7 @@ import pytest
 from studio.engine.camera import Camera
 from studio.engine.performance import start_world
 from studio.engine.scene import Scene
+from studio.engine.scene_file import read_scene
 from studio.engine.world import World
 
 CAMERAS = [Camera(), Camera((3.0, -1.0, 2.5), (0.1, 0.2, 0.8), 60.0, (320, 200))]
@@ -45,13 +46,30 @@ def test_a_picture_shows_the_block_where_the_camera_says() -> None:
             assert blue < 80  # the block is amber
 
 
-def test_looks_change_nothing_of_what_happens() -> None:
+def test_a_picture_shows_the_zone_where_the_camera_says() -> None:
+    camera, scene = Camera(size=(240, 180)), read_scene("push-into-zone")
+    (zone,) = scene.zones
+    with World(scene, looks=True) as world:
+        picture = world.picture(camera)
+    beside = np.array([*zone.center, scene.desk.top]) - [0.0, zone.size[1], 0.0]
+    inside = np.array([*zone.center, scene.desk.top])
+    colors = [
+        picture[row, column].tolist()
+        for column, row in np.round(camera.pixels(np.array([inside, beside]))).astype(int)
+    ]
+    (red, green, _), (wood, shade, _) = colors
+    assert green > 1.2 * red
+    assert shade < wood  # the desk is brown
+
+
+@pytest.mark.parametrize("scene", [Scene(), read_scene("push-into-zone")])
+def test_looks_change_nothing_of_what_happens(scene: Scene) -> None:
     """Same commands, same states, to the bit: looks have neither mass nor shape to bump into."""
     found = []
     with start_world("left", "exact") as plain:
         start = dict(zip(plain._robot.joint_names, plain.state.joint_positions, strict=True))
     for looks in (False, True):
-        with World(Scene(), start, looks=looks) as world:
+        with World(scene, start, looks=looks) as world:
             world.apply({"left_s0": -0.8, "left_s1": 0.2})
             states = [world.step() for _ in range(25)]
         found.append(np.array([s.joint_positions for s in states]).tobytes())

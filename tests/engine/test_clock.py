@@ -153,3 +153,30 @@ def test_a_wait_ends_where_it_is_due_or_stopped() -> None:
     assert clock.now() >= due
     stopping.set()
     assert not clock.wait_until(clock.now() + 60.0, stopping)
+
+
+def test_a_program_that_has_the_clock_lets_time_pass(tmp_path: Path) -> None:
+    seen: list[float] = []
+    with LiveLoop(lambda: Session(tmp_path)) as loop:
+        loop.watch(lambda now: seen.append(now.world.time))
+        stands, stepped = threading.Event(), threading.Event()
+        loop.steps.take(60.0, lambda _: stands.set(), lambda: None)
+        assert stands.wait(10.0)
+        before = len(seen)
+        time.sleep(0.2)
+        assert len(seen) == before
+        loop.steps.ask(7, lambda _: stepped.set())
+        assert stepped.wait(10.0)
+        assert len(seen) == before + 7
+        loop.steps.give()
+        wait_for(lambda: len(seen) > before + 12)
+        assert loop.pace.skipped == 0  # the time that stood still was not missed
+    assert seen == sorted(set(seen))
+
+
+def test_it_ends_while_a_program_has_the_clock(tmp_path: Path) -> None:
+    with LiveLoop(lambda: Session(tmp_path)) as loop:
+        stands = threading.Event()
+        loop.steps.take(60.0, lambda _: stands.set(), lambda: None)
+        assert stands.wait(10.0)
+    assert not any(thread.name == "engine" for thread in threading.enumerate())

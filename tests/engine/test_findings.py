@@ -21,7 +21,7 @@ def point(neurons: int) -> ErrorPoint:
 
 
 def block(neurons: int) -> BlockPoint:
-    return BlockPoint(neurons, neurons > 2, 0.01, 0.02)
+    return BlockPoint(neurons, neurons > 2, 0.01, 0.02, done=neurons > 2)
 
 
 @given(st.permutations(COUNTS), st.integers(0, len(COUNTS)))

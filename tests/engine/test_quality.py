@@ -97,7 +97,7 @@ def test_the_odd_one_out_is_found_and_nobody_else():
 def test_a_block_left_standing_is_found():
     shown, recording = take(1)
     last = recording.samples[-1]
-    standing = replace(last, world=replace(last.world, block_down=False))
+    standing = replace(last, world=replace(last.world, done=False))
     untouched = replace(recording, samples=(*recording.samples[:-1], standing))
     (flag,) = flags_of(shown, untouched)
     assert flag.name == "block stands"

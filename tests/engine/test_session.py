@@ -155,7 +155,7 @@ def test_a_fault_in_what_is_drawn_ends_it_and_not_the_studio(session, monkeypatc
 def test_any_fault_in_a_command_is_said_and_the_session_holds_still(
     session, monkeypatch, fault: Exception
 ) -> None:
-    def break_down(*_: object) -> None:
+    def break_down(*_: object, **__: object) -> None:
         raise fault
 
     do(session, commands.UseDemonstrator(), commands.Watch())

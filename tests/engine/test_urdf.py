@@ -2,13 +2,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yourdfpy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from studio.engine.errors import FileError
-from studio.engine.resources import resource_root
 from studio.engine.urdf import Box, Cylinder, Mesh, Sphere, read_urdf, transform
 
 ANGLE = st.floats(-7, 7)
@@ -69,14 +67,3 @@ def test_what_is_not_understood_is_refused_by_name(tmp_path: Path, body: str, sa
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"gone\.urdf"):
         read_urdf(tmp_path / "gone.urdf")
-
-
-@pytest.mark.parametrize("name", ["desk", "block"])
-def test_a_boxs_inertia_is_that_of_its_mass_spread_evenly(name: str) -> None:
-    path = resource_root() / "urdf" / f"{name}.urdf"
-    (link,) = yourdfpy.URDF.load(str(path), load_meshes=False).robot.links
-    (shape,) = (placed.shape for placed in read_urdf(path).links[0].collisions)
-    assert isinstance(shape, Box)
-    square = np.square(shape.size)
-    expected = link.inertial.mass / 12 * (square.sum() - square)
-    np.testing.assert_allclose(link.inertial.inertia, np.diag(expected), rtol=1e-5)

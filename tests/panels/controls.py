@@ -41,6 +41,7 @@ class Gui:
         self.by_label: dict[str, Control] = {}
         self.texts: list[Control] = []
         self.charts: list[Control] = []
+        self.bars: list[Control] = []
 
     def add_button(self, label: str, **props: object) -> Control:
         return self._keep(Control(label, **props))
@@ -69,6 +70,10 @@ class Gui:
     def add_uplot(self, data: tuple, series: tuple, **props: object) -> Control:
         self.charts.append(Control(data=data, series=series, **props))
         return self.charts[-1]
+
+    def add_progress_bar(self, value: float, **props: object) -> Control:
+        self.bars.append(Control(value=value, **props))
+        return self.bars[-1]
 
     def __getitem__(self, label: str) -> Control:
         return self.by_label[label]

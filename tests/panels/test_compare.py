@@ -65,7 +65,7 @@ def test_one_table_has_all_that_was_measured(lesson) -> None:
 
 def test_a_block_that_stands_is_told_by_sign_and_word(lesson) -> None:
     now = lesson["played"]
-    table = tuple(replace(column, block_down=False) for column in now.compare.table)
+    table = tuple(replace(column, done=False) for column in now.compare.table)
     words = outcome(comparing(now, table=table))
     assert "✖ The block still stands." in words
     assert "✖ stands" in words
@@ -80,7 +80,7 @@ def test_every_demonstration_that_is_learned_from_tells_of_its_block(lesson) -> 
     first, second = now.entries
     assert "The block in the demonstrations: 1 ✔ down, 2 ✔ down." in told(now)
     samples = second.recording.samples
-    world = replace(samples[-1].world, block_down=False)
+    world = replace(samples[-1].world, done=False)
     missed = replace(
         second,
         recording=replace(
@@ -110,7 +110,7 @@ def test_numbers_wait_for_the_end(lesson) -> None:
 def test_two_robots_have_a_verdict_each(lesson) -> None:
     now = lesson["played"]
     shown, first = now.compare.table
-    other = replace(first, letter="B", name="three neurons", block_down=False)
+    other = replace(first, letter="B", name="three neurons", done=False)
     words = outcome(comparing(now, table=(shown, first, other)))
     assert "A: ✔ The block is down." in words
     assert "B: ✖ The block still stands." in words

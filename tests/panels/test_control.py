@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import pytest
 
 from studio.engine import commands
+from studio.engine.seat import PATIENCE, WATCHING, Seat
 from studio.panels import control as module
 from studio.panels.control import CLOSED, Control
-from studio.panels.seat import PATIENCE, WATCHING
 
 
 class Part:
@@ -54,7 +54,7 @@ class Browser:
 class Hall:
     """A server with browsers, whose time and speaker the test sets."""
 
-    def __init__(self, monkeypatch) -> None:
+    def __init__(self, monkeypatch, seat: Seat | None = None) -> None:
         self.browsers: dict[int, Browser] = {}
         self.posted: list[commands.Command] = []
         self.time, self.speaking = 0.0, None
@@ -65,7 +65,7 @@ class Hall:
             on_client_disconnect=lambda act: setattr(self, "left", act),
             get_clients=lambda: dict(self.browsers),
         )
-        self.control = Control(server, self.posted.append, lambda: self.time)
+        self.control = Control(server, self.posted.append, lambda: self.time, seat)
 
     def open(self, client_id: int) -> Browser:
         browser = self.browsers[client_id] = Browser(client_id)
@@ -152,3 +152,26 @@ def test_what_the_studio_itself_asks_is_never_refused(hall: Hall) -> None:
     hall.ask(hall.open(1), commands.Watch())
     hall.control.post(commands.Stop())
     assert hall.posted[-1] == commands.Stop()
+
+
+def test_a_program_is_asked_for_control_as_another_page_is(monkeypatch) -> None:
+    seat = Seat()
+    hall = Hall(monkeypatch, seat)
+    page = hall.open(1)
+    assert not hall.control.is_elsewhere
+    seat.join("program 1", "a program at 127.0.0.1")
+    seat.act("program 1")
+    assert hall.control.is_elsewhere
+    assert hall.control.holder() is None
+    hall.ask(page, commands.Watch())
+    assert hall.posted == []
+    assert page.told[0].startswith(
+        "A program at 127.0.0.1 controls Baxter: press “Ask for control”"
+    )
+    assert "a program at 127.0.0.1 controls" in page.gui.parts["words"].content
+    page.press("Ask for control")
+    assert seat.asking == 1
+    seat.answer("program 1", yes=True)
+    hall.ask(page, commands.Watch())
+    assert hall.posted == [commands.Watch()]
+    assert not hall.control.is_elsewhere

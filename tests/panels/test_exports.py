@@ -11,8 +11,8 @@ import viser
 
 from studio.engine import commands
 from studio.engine.export_status import ExportStatus
+from studio.engine.uploads import Uploads
 from studio.panels.exports import ARCHIVE, ExportPanel, packages
-from studio.panels.uploads import Uploads
 
 
 @pytest.fixture

@@ -7,11 +7,10 @@ from types import SimpleNamespace
 import pytest
 import viser
 
-from studio.engine import commands
+from studio.engine import commands, uploads
 from studio.engine.reading import ReadingStatus
-from studio.panels import uploads
+from studio.engine.uploads import Uploads
 from studio.panels.files import NEAREST, FilePanel, ReadingPanel, body_labels, described
-from studio.panels.uploads import Uploads
 
 BODIES = (("72057594037933964", 312), ("<b>", 40))
 

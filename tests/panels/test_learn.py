@@ -43,7 +43,7 @@ def status(**changes: object) -> LearningStatus:
 
 
 def tried(neurons: int, down: bool, guess: bool | None) -> Tried:
-    return Tried("rbf", BlockPoint(neurons, down, 0.0123, 0.0304), guess)
+    return Tried("rbf", BlockPoint(neurons, down, 0.0123, 0.0304, done=down), guess)
 
 
 # The curve and its strip

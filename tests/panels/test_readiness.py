@@ -8,6 +8,7 @@ import pytest
 from studio.engine import commands
 from studio.engine.choices import Choices
 from studio.engine.session import Session
+from studio.engine.snapshot import Mode
 from studio.engine.teaching import LearnerSettings
 from studio.panels.readiness import (
     described,
@@ -93,3 +94,11 @@ def test_with_all_left_out_there_is_nothing_to_learn_from(lesson) -> None:
 def test_equal_names_are_told_apart(lesson) -> None:
     (one,) = lesson["recorded"].entries
     assert described(one) != described(replace(one, number=one.number + 1))
+
+
+def test_while_a_program_drives_stop_comes_first(lesson) -> None:
+    driven = replace(lesson["trained"], mode=Mode.DRIVEN)
+    for why_not in (why_not_configure, why_not_calibrate, why_not_teach):
+        assert why_not(driven) == "A program drives Baxter: press Stop first."
+    assert why_not_play(driven) == ""  # which ends it, as Stop does
+    assert "Stop ends it" in next_step(driven)

@@ -9,7 +9,8 @@ import viser
 
 from studio.engine.calibration import Calibration
 from studio.engine.snapshot import Mode, Snapshot
-from studio.panels import readiness
+from studio.engine.uploads import Uploads
+from studio.panels import readiness, robot_link
 from studio.panels.arcs import ArcsView
 from studio.panels.exports import LABELS
 from studio.panels.guessing import score
@@ -17,7 +18,7 @@ from studio.panels.learn import why_not_suggest
 from studio.panels.page import Page
 from studio.panels.timeline import title
 from studio.panels.tour import Guide
-from studio.panels.uploads import Uploads
+from studio.panels.tryout import why_not_test
 
 
 def plain(words: str) -> str:
@@ -37,6 +38,12 @@ WHY_NOT = {  # for a control's label, what its reason is by the snapshot
     "Let Baxter do it alone": readiness.why_not_play,
     "Replay this demonstration": readiness.why_not_replay,
     "Ghost": lambda _: "No demonstration is listed: record one in 2 Teach.",
+    "Test 100 times": why_not_test,
+    "Connect": lambda now: robot_link.why_not_connect(now.link),
+    "Let it alone": lambda now: robot_link.why_not_leave(now.link),
+    "Enable its motors": lambda now: robot_link.why_not_enable(now.link),
+    "Go to the pose on the page, slowly": lambda now: robot_link.why_not_start(now.link, False),
+    "Disable: take its power": lambda now: robot_link.why_not_leave(now.link),
     "Put the block back": readiness.why_not_put_back,
     "Keep this one to compare": readiness.why_not_keep,
     "Export": lambda _: "Choose at least one that is ready.",

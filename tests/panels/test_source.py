@@ -5,9 +5,9 @@ from dataclasses import replace
 import viser
 
 from studio.engine.live.status import LiveStatus
+from studio.engine.uploads import Uploads
 from studio.panels.arcs import ArcsView
 from studio.panels.source import SourcePanel, described, sample_files
-from studio.panels.uploads import Uploads
 
 
 def test_the_source_in_words(lesson) -> None:

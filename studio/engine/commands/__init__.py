@@ -3,6 +3,7 @@
 from studio.engine.commands.act import (
     ActCommand,
     Calibrate,
+    ChooseScene,
     Configure,
     ForgetCalibration,
     LetGo,
@@ -20,6 +21,7 @@ from studio.engine.commands.compare import (
     PutBlockBack,
     ShowLeg,
 )
+from studio.engine.commands.drive import DriveCommand, SetJointTarget
 from studio.engine.commands.export import (
     CancelExport,
     Export,
@@ -34,6 +36,17 @@ from studio.engine.commands.learn import (
     ResumeCurve,
     RevealBlocks,
     Train,
+    TryOut,
+)
+from studio.engine.commands.link import (
+    ConnectLink,
+    DisableLink,
+    DisconnectLink,
+    EnableLink,
+    LinkCommand,
+    SetLinkSpeed,
+    StartLink,
+    StopLink,
 )
 from studio.engine.commands.source import (
     CancelReading,
@@ -80,8 +93,10 @@ from studio.engine.commands.timeline import (
 Command = (
     ActCommand
     | CompareCommand
+    | DriveCommand
     | ExportCommand
     | LearnCommand
+    | LinkCommand
     | SourceCommand
     | TakeCommand
     | TeachCommand
@@ -98,12 +113,18 @@ __all__ = [
     "CancelWork",
     "Choose",
     "ChooseLearner",
+    "ChooseScene",
     "Command",
     "CompareCommand",
     "Configure",
+    "ConnectLink",
     "DeleteForGood",
+    "DisableLink",
+    "DisconnectLink",
     "DragElbow",
     "DragHand",
+    "DriveCommand",
+    "EnableLink",
     "EndTake",
     "Export",
     "ExportCommand",
@@ -115,6 +136,7 @@ __all__ = [
     "KeepToCompare",
     "LearnCommand",
     "LetGo",
+    "LinkCommand",
     "ListCommand",
     "OpenRecording",
     "OpenSession",
@@ -134,19 +156,24 @@ __all__ = [
     "ResumeCurve",
     "RevealBlocks",
     "Scrub",
+    "SetJointTarget",
+    "SetLinkSpeed",
     "SetLoop",
     "SetSpeed",
     "ShowLeg",
     "Sign",
     "SourceCommand",
+    "StartLink",
     "StepBy",
     "Stop",
+    "StopLink",
     "TakeCommand",
     "TeachCommand",
     "TimelineCommand",
     "TogglePlay",
     "Train",
     "Trim",
+    "TryOut",
     "UseDemonstrator",
     "UseFile",
     "UseLive",

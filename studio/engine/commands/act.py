@@ -3,13 +3,31 @@
 from dataclasses import dataclass
 
 from studio.engine.choices import Choices
+from studio.engine.scene import Scene
+from studio.engine.scene_file import read_scene
 
 
 @dataclass(frozen=True)
 class Configure:
-    """Choose how Baxter is taught from now on; the calibration stays as it is."""
+    """Choose how Baxter is taught from now on; calibration and scene stay as they are."""
 
     choices: Choices
+
+    def among(self, choices: Choices) -> Choices:
+        """Return what is chosen then; raise StudioError where the scene does not allow it."""
+        return choices.configured(self.choices)
+
+
+@dataclass(frozen=True)
+class ChooseScene:
+    """Choose what stands around Baxter, and what is to be done with it."""
+
+    scene: str | Scene  # the name of one that ships, the path of a user's own file, or itself
+
+    def among(self, choices: Choices) -> Choices:
+        """Return what was chosen before, in this scene; raise FileError where there is none."""
+        scene = self.scene if isinstance(self.scene, Scene) else read_scene(self.scene)
+        return choices.in_scene(scene)
 
 
 @dataclass(frozen=True)
@@ -57,4 +75,14 @@ class LetGo:
     why: str  # in words, for whoever comes next
 
 
-ActCommand = Configure | Calibrate | ForgetCalibration | Watch | Record | RecordAgain | Stop | LetGo
+ActCommand = (
+    Configure
+    | ChooseScene
+    | Calibrate
+    | ForgetCalibration
+    | Watch
+    | Record
+    | RecordAgain
+    | Stop
+    | LetGo
+)

@@ -5,15 +5,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class PlaceBlock:
-    """Put the task's block somewhere else on the desk; the robot waits beside it anew."""
+    """Put a block of the task somewhere else on the desk; the robot waits beside it anew."""
 
     x: float  # [m] of its center in the world
     y: float  # [m]
+    block: int = 0  # which of the scene's, as they are listed
 
 
 @dataclass(frozen=True)
 class PutBlockBack:
-    """Put the task's block where it was taught."""
+    """Put the task's blocks where they were taught."""
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,16 @@ class RevealBlocks:
 
 
 @dataclass(frozen=True)
+class TryOut:
+    """Let Baxter do alone what it learned, many times under varied conditions, behind the scenes.
+
+    `CancelWork` ends it; what is known by then stays.
+    """
+
+    trials: int = 100
+
+
+@dataclass(frozen=True)
 class ResumeCurve:
     """Go on with the error curve after it was stopped, or has failed."""
 
@@ -47,4 +57,4 @@ class CancelWork:
     """Give up what is being computed."""
 
 
-LearnCommand = ChooseLearner | Train | Guess | RevealBlocks | ResumeCurve | CancelWork
+LearnCommand = ChooseLearner | Train | Guess | RevealBlocks | TryOut | ResumeCurve | CancelWork

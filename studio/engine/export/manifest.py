@@ -26,7 +26,9 @@ from studio.engine.export.material import Material
 from studio.engine.gate import GATE_MODES
 from studio.engine.hands import HandOptions
 from studio.engine.retarget import MAPPINGS
-from studio.engine.sources.strict_json import as_list, as_object
+from studio.engine.scene import USUAL, Scene
+from studio.engine.scene_file import scene_of, table_of
+from studio.engine.sources.strict_json import as_list, as_object, as_text
 from studio.engine.teaching import LEARNERS, LearnerSettings
 from studio.engine.wrist import WRIST_MODES
 
@@ -137,6 +139,7 @@ def _settings(setup: Setup) -> dict[str, Any]:
         "mirrored": setup.mirrored,
         "gripper": setup.hands.gripper,
         "wrist": setup.hands.wrist,
+        "scene": {"name": setup.scene.name, **table_of(setup.scene)},
         "learner": setup.learner.name,
         "neurons": setup.learner.neurons,
         "interpolation": setup.interpolation,
@@ -159,7 +162,16 @@ def _setup(value: object) -> Setup:
         seed=_count(table, "seed", 1 << 63, "settings"),
         mirrored=_flag(table, "mirrored", "settings"),
         hands=hands,
+        scene=_scene(table),
     )
+
+
+def _scene(table: dict[str, object]) -> Scene:
+    """Return the scene; archives of older studios know one only."""
+    if "scene" not in table:
+        return USUAL
+    told = dict(as_object(table["scene"], "settings: scene"))
+    return scene_of(told, "settings: scene", as_text(told.pop("name", None), "the scene's name"))
 
 
 def _learner(table: dict[str, object], place: str) -> LearnerSettings:

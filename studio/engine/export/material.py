@@ -102,7 +102,7 @@ def cut(recording: Recording, name: str, first: int, last: int) -> Demonstration
     hands = None
     if info.hands != PLAIN:
         hands = HandTrack.of(info.hands, times, [sample.hands for sample in stretch])
-    return Demonstration(name, info.arms, info.mapping, times, sent, first, last, hands)
+    return Demonstration(name, info.arms, info.mapping, times, sent, first, last, hands, info.scene)
 
 
 def material_of(paths: Sequence[Path], setup: Setup) -> Material:

@@ -20,11 +20,12 @@ from studio.engine.errors import FileError
 from studio.engine.export.kind import Job
 from studio.engine.export.material import Material
 from studio.engine.measures import hand_path
-from studio.engine.performance import Performance, perform, start_world
+from studio.engine.performance import Performance, perform
 from studio.engine.robot import BASE_HEIGHT, CONTROL_RATE
-from studio.engine.scene import Scene
+from studio.engine.scene import USUAL, Scene
 from studio.engine.silence import STDERR, silenced
 from studio.engine.skeleton import FloatArray
+from studio.engine.task_words import task_words
 from studio.engine.teaching import Lesson
 from studio.engine.world import World
 
@@ -46,13 +47,15 @@ class Side:
     title: str
     performance: Performance
     trail: FloatArray  # (N, A, 3) [m] where the hands of A arms were, tick by tick
+    scene: Scene  # for the arms that are taught
 
     @classmethod
-    def of(cls, title: str, performance: Performance) -> "Side":
-        """Return the half that shows a performance."""
+    def of(cls, title: str, performance: Performance, scene: Scene | None = None) -> "Side":
+        """Return the half that shows a performance, in the usual scene unless given one."""
         joints = np.array([tick.world.joint_positions for tick in performance.ticks])
         paths = [hand_path(joints, side) for side in sides_of(performance.arms)]
-        return cls(title, performance, np.stack(paths, axis=1) + np.array([0.0, 0.0, BASE_HEIGHT]))
+        trail = np.stack(paths, axis=1) + np.array([0.0, 0.0, BASE_HEIGHT])
+        return cls(title, performance, trail, (scene or USUAL).taught_by(performance.arms))
 
 
 def write(material: Material, job: Job) -> tuple[Path, ...]:
@@ -63,8 +66,8 @@ def write(material: Material, job: Job) -> tuple[Path, ...]:
         job.done(0.0)
         shown = lesson.taught.demonstrations[0]
         sides = (
-            Side.of(f"Demonstration: {shown.name}", _replay(shown)),
-            Side.of(f"Alone: {_learner(lesson)}", reproduction.performance),
+            Side.of(f"Demonstration: {shown.name}", _replay(shown), shown.scene),
+            Side.of(f"Alone: {_learner(lesson)}", reproduction.performance, shown.scene),
         )
         write_film(path, sides, job.part(_REPLAYED, 1.0))
     return (path,)
@@ -110,11 +113,8 @@ def write_film(path: Path, sides: tuple[Side, ...], job: Job, camera: Camera | N
 
 def _frames(sides: tuple[Side, ...], moments: range, camera: Camera) -> Iterator[Picture]:
     """Yield the film's pictures; one world shows all sides, one after the other."""
-    first = sides[0].performance
-    with start_world(first.arms, first.mapping) as plain:
-        fingers = bool(len(first.ticks[0].world.fingers))
-        scene: Scene = plain.scene
-    with World(scene, fingers=fingers, looks=True) as world:
+    fingers = bool(len(sides[0].performance.ticks[0].world.fingers))
+    with World(sides[0].scene, fingers=fingers, looks=True) as world:
         for tick in moments:
             yield np.hstack([_half(world, camera, side, tick) for side in sides])
 
@@ -127,7 +127,7 @@ def _half(world: World, camera: Camera, side: Side, tick: int) -> Picture:
     for path in side.trail[: min(tick, last) + 1].swapaxes(0, 1):
         line = np.round(camera.pixels(path)).astype(np.int32)
         cv2.polylines(picture, [line], False, _TRAIL, 2, cv2.LINE_AA)
-    down = "block down" if shown.world.block_down else "block stands"
+    down = task_words(side.scene).state[not shown.world.done]
     _label(picture, side.title, 22)
     _label(picture, f"{max(shown.time, 0.0):4.1f} s   {down}", camera.size[1] - 12)
     return picture
@@ -152,7 +152,8 @@ def _camera_for(performance: Performance) -> Camera:
 
 
 def _replay(shown: Demonstration) -> Performance:
-    return perform(shown.trajectory(), shown.duration, shown.arms, shown.mapping, shown.hands)
+    how = (shown.duration, shown.arms, shown.mapping, shown.hands, shown.scene)
+    return perform(shown.trajectory(), *how)
 
 
 def _learner(lesson: Lesson) -> str:

@@ -24,15 +24,18 @@ class Address:
     port: int = STREAM_PORT  # 0: any that is free
 
     @classmethod
-    def parse(cls, text: str) -> "Address":
-        """Return the address that ``HOST:PORT`` names; raise StudioError where it names none."""
+    def parse(cls, text: str, option: str = "--listen") -> "Address":
+        """Return the address that ``HOST:PORT`` names; raise StudioError where it names none.
+
+        ``option`` is the command line's that says it.
+        """
         found = _HOST_AND_PORT.fullmatch(text)
         port = -1 if found is None else int(found["port"])
         if found is None or port > _LAST_PORT:
             # With two colons or more one cannot tell where a bare address ends.
             sixth = f" (IPv6 in brackets: [::1]:{STREAM_PORT})" if text.count(":") > 1 else ""
             raise StudioError(
-                f"--listen: expected HOST:PORT, such as {LOOPBACK}:{STREAM_PORT}{sixth}, "
+                f"{option}: expected HOST:PORT, such as {LOOPBACK}:{STREAM_PORT}{sixth}, "
                 f"found {text!r:.80}"
             )
         return cls(found["numbers"] or found["name"], port)
@@ -58,14 +61,14 @@ def is_loopback(host: str) -> bool:
         return False
 
 
-def check_address(address: Address, token: str | None) -> None:
+def check_address(address: Address, token: str | None, option: str = "--listen") -> None:
     """Raise StudioError where strangers could move the robot: beyond loopback without a token."""
     if token is not None and len(token) < SHORTEST_TOKEN:
         raise StudioError(f"--token: {SHORTEST_TOKEN} characters or more, so that none guesses it")
     if token is None and not is_loopback(address.host):
         raise StudioError(
-            f"--listen {address}: beyond this machine a token is needed, since whoever can send "
-            f"frames moves the robot: add --token with {SHORTEST_TOKEN} characters or more (or set "
+            f"{option} {address}: beyond this machine a token is needed, since whoever connects "
+            f"moves the robot: add --token with {SHORTEST_TOKEN} characters or more (or set "
             f"STUDIO_TOKEN, which others cannot see), or listen on {LOOPBACK}:{address.port}"
         )
 
@@ -106,7 +109,7 @@ def refusal(path: str, authorization: str, origin: str | None, token: str | None
     # which page it is. Without a token to know, no other site's page may move the robot; programs
     # that are no browsers send no Origin.
     if origin is not None and not is_loopback(_host_of(origin)):
-        return "a page of another site may send frames only where the studio has a token"
+        return "a page of another site may connect only where the studio has a token"
     return ""
 
 

@@ -43,9 +43,15 @@ _LASSO_FLICKER = 0.4  # [1/s] of two frames of Closed
 
 
 def sense(
-    positions: FloatArray, left_hand: Sequence[HandState], rng: np.random.Generator
+    positions: FloatArray,
+    left_hand: Sequence[HandState],
+    rng: np.random.Generator,
+    right_hand: Sequence[HandState] | None = None,
 ) -> tuple[Skeleton, ...]:
-    """Return clean positions (T, 25, 3) [m] at 30 Hz and hand states as a sensor shows them."""
+    """Return clean positions (T, 25, 3) [m] at 30 Hz and hand states as a sensor shows them.
+
+    A right hand of which nothing is said is open, and seen so.
+    """
     noisy = positions + _noise(positions, rng)
     for side in ("left", "right"):
         _spike(noisy, Joint[f"WRIST_{side.upper()}"], rng)
@@ -53,8 +59,11 @@ def sense(
     tracking = _tracking(len(positions), rng)
     hands = _hand_states(left_hand, rng)
     times, kept = _stamps(len(positions), rng)
+    others = [HandState.OPEN] * len(positions)
+    if right_hand is not None:
+        others = _hand_states(right_hand, rng)
     return tuple(
-        Skeleton(float(times[i]), noisy[i], tracking[i], Hand(hands[i]), Hand(HandState.OPEN), "1")
+        Skeleton(float(times[i]), noisy[i], tracking[i], Hand(hands[i]), Hand(others[i]), "1")
         for i in kept
     )
 
