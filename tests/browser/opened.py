@@ -58,7 +58,7 @@ class Studio:
         chooser.value.set_files(path)
 
     def shows(self, words: str) -> None:
-        expect(self.page.get_by_text(words).first).to_be_visible()
+        expect(self.page.get_by_text(words).locator("visible=true").first).to_be_visible()
 
     def waits(self, reached: Callable[[Snapshot], bool], patience: int = PATIENCE) -> Snapshot:
         for _ in range(patience // 50):

@@ -182,7 +182,7 @@ def test_any_fault_in_a_command_is_said_and_the_session_holds_still(
         (commands.Choose(3), "no such demonstration"),
         (commands.Remove(0), "no such demonstration"),
         (commands.DragHand("left", (0.0, 0.0, 2.0)), "Take the puppet first"),
-        (commands.FollowBody("1"), "Take a file first"),
+        (commands.FollowBody("1"), "Take a file or a live stream first"),
     ],
 )
 def test_what_cannot_be_done_is_said_and_the_session_lives(session, order, words: str) -> None:
