@@ -26,6 +26,7 @@ sys.path.insert(0, str(ROOT))
 import msgspec  # noqa: E402
 
 from studio.engine import commands  # noqa: E402
+from studio.engine.robot import JOINT_NAMES  # noqa: E402
 
 COMMANDS = ROOT / "studio" / "remote" / "commands"
 SCHEMA = ROOT / "docs" / "remote.schema.json"
@@ -35,7 +36,7 @@ _HEAD = '"""{words} Written by docs/make_remote_schema.py: change it there."""\n
 _BARE_PARTS = "parts"  # the module of what commands are made of
 # What a module may need, in the order of its imports.
 _IMPORTS = {
-    r"\bLiteral\b": "from typing import Literal\n",
+    r"\b(?:Annotated|Literal)\b": "from typing import {names}\n",
     r"\bmsgspec\b": "import msgspec\n",
     r"\b(?:File|Place)\b": "from studio.remote.files import {names}",
     r"\b(?:Message|Part|Text)\b": "from studio.remote.message import {names}",
@@ -171,7 +172,10 @@ def _written(hint: Any) -> str:
         return f"Literal[{', '.join(map(json.dumps, inner))}]"
     if origin in _GENERIC:
         parts = ("..." if each is ... else _written(each) for each in inner)
-        return f"{_GENERIC[origin]}[{', '.join(parts)}]"
+        whole = f"{_GENERIC[origin]}[{', '.join(parts)}]"
+        if origin is Mapping:  # by joint
+            return f"Annotated[{whole}, msgspec.Meta(max_length={len(JOINT_NAMES)})]"
+        return whole
     if issubclass(hint, Enum):
         return f"Literal[{', '.join(json.dumps(each.value) for each in hint)}]"
     named = "Text" if hint.__name__ in _BY_NAME else str(hint.__name__)

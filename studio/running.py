@@ -66,12 +66,12 @@ def running(recordings: Path, doors: Doors) -> Iterator[Running]:
         for sample in sorted(samples_folder().glob("*.mcap")):
             loop.session.post(commands.UseFile(sample))
         print(f"Live streams are taken at {listener.address.url}", flush=True)
+        if doors.robot is not None:  # before a program can take the clock
+            loop.session.post(commands.ConnectLink(doors.robot))
         if doors.remote is not None:
             server = RemoteServer(loop, seat, doors.remote, doors.token)
             stack.enter_context(server)
             print(f"Programs are let in at {server.address.url}", flush=True)
-        if doors.robot is not None:
-            loop.session.post(commands.ConnectLink(doors.robot))
         yield Running(loop, seat)
 
 

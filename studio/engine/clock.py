@@ -94,7 +94,7 @@ class LiveLoop:
         due = now()
         while self._wait_for_tick(session, due):
             self._tell(session.tick())
-            if self.steps.is_held:
+            if self.steps.is_due:
                 self.steps.run(session, self._stopping, self._tell)
                 due = now()
             due += self._period

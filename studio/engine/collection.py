@@ -182,6 +182,8 @@ class Collection:
 
     def _add_from(self, path: Path, shown: str) -> str:
         if not path.is_dir():
+            if path.exists() and not path.is_file():
+                raise FileError(f"{path}: a pipe or a device, and no recording: choose a file")
             self._post(OpenSession(path, shown) if is_session(path) else UseFile(path, shown))
             return ""
         found = sorted(file for file in path.glob("*.mcap") if is_mcap(file))[:MOST_ADDED]

@@ -116,8 +116,10 @@ class LogReader:
 
 
 def is_mcap(path: Path) -> bool:
-    """Tell whether a file begins as MCAP does; a missing file does not."""
+    """Tell whether a file begins as MCAP does; a missing file does not, nor a pipe or a device."""
     try:
+        if not path.is_file():  # to open a pipe would wait for whoever writes into it
+            return False
         with path.open("rb") as file:
             return file.read(len(MAGIC)) == MAGIC
     except (OSError, ValueError):  # ValueError: a name with a zero byte in it

@@ -32,7 +32,7 @@ class Stepped(Protocol):
         ...
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Asked:
     ticks: int
     done: Done
@@ -54,13 +54,20 @@ class Steps:
         self._patience = 0.0  # [s]
         self._taken: Done | None = None  # told once time stands still
         self._lost: Callable[[], None] | None = None  # told where the patience is over
+        self._heard = 0.0  # [s] when whoever has the clock was heard last
         self._asked: _Asked | None = None
+        self._over: list[Done] = []  # of steps that are over or dropped, and not answered
         self._nudged = False
 
     @property
     def is_held(self) -> bool:
         """Whether a program has the clock."""
         return self._held
+
+    @property
+    def is_due(self) -> bool:
+        """Whether `run` has something to do."""
+        return self._held or bool(self._over)
 
     def take(self, patience: float, taken: Done, lost: Callable[[], None]) -> None:
         """Take the clock; ``taken`` is told when the world stands still.
@@ -76,6 +83,7 @@ class Steps:
             if self._held:
                 raise StudioError("a program has the clock already")
             self._held, self._patience, self._taken, self._lost = True, patience, taken, lost
+            self._heard = self._now()
             self._condition.notify()
 
     def ask(self, ticks: int, done: Done) -> None:
@@ -103,41 +111,47 @@ class Steps:
             self._condition.notify()
 
     def give(self) -> None:
-        """Give the clock back, if anybody has it; steps that go on end after the present tick."""
+        """Give the clock back, if anybody has it; steps that go on end after the present tick.
+
+        Whoever waits for time to stand still is not told any more.
+        """
         with self._condition:
-            self._held = False
+            self._held, self._taken = False, None
+            self._drop()
             self._condition.notify()
 
     def run(
         self, session: Stepped, stopping: threading.Event, ticked: Callable[[Snapshot], None]
     ) -> None:
         """Step a session as asked, until the clock is given back or ``stopping`` is set."""
-        heard = self._now()
         while self._held and not stopping.is_set():
-            if self._begin(session):
-                heard = self._now()
+            self._begin(session)
             asked = self._next()
             if asked is None:
                 session.hear()
-                if self._now() - heard > self._patience:
-                    self._lose()
-                continue
-            for _ in range(asked.ticks):
-                ticked(session.tick())
-                if not self._held or stopping.is_set():
-                    break
-            with self._condition:
-                self._asked = None
-            asked.done(session.snapshot)
-            heard = self._now()
-        self._end(session)
+                self._lose_if_silent()
+            else:
+                for _ in range(asked.ticks):
+                    ticked(session.tick())
+                    if self._asked is not asked or stopping.is_set():  # it was dropped
+                        break
+                with self._condition:
+                    if self._asked is asked:
+                        self._heard = self._now()
+                        self._drop()
+            self._answer(session)
+        with self._condition:
+            if stopping.is_set():
+                self._drop()
+        self._answer(session)
 
-    def _begin(self, session: Stepped) -> bool:
-        """Tell whoever has taken the clock that time stands still; return whether anybody had."""
-        taken, self._taken = self._taken, None
+    def _begin(self, session: Stepped) -> None:
+        """Tell whoever has taken the clock that time stands still; its patience begins now."""
+        with self._condition:
+            taken, self._taken = self._taken, None
+            self._heard = self._heard if taken is None else self._now()
         if taken is not None:
             taken(session.snapshot)
-        return taken is not None
 
     def _next(self) -> _Asked | None:
         """Wait for what is asked, for a nudge, or a little."""
@@ -147,15 +161,25 @@ class Steps:
             self._nudged = False
             return self._asked
 
-    def _lose(self) -> None:
-        self.give()
-        lost, self._lost = self._lost, None
+    def _lose_if_silent(self) -> None:
+        with self._condition:  # all at once: by the next moment somebody else may have taken it
+            is_heard = self._now() - self._heard <= self._patience
+            if is_heard or not self._held or self._asked is not None:
+                return
+            self.give()
+            lost, self._lost = self._lost, None
         if lost is not None:
             lost()
 
-    def _end(self, session: Stepped) -> None:
-        """Tell whoever waits for steps that none will come."""
+    def _drop(self) -> None:
+        """Let no step more pass of those that were asked for; the lock is held."""
+        if self._asked is not None:
+            self._over.append(self._asked.done)
+        self._asked = None
+
+    def _answer(self, session: Stepped) -> None:
+        """Tell whoever waits for steps that no more will come."""
         with self._condition:
-            asked, self._asked = self._asked, None
-        if asked is not None:
-            asked.done(session.snapshot)
+            over, self._over = self._over, []
+        for done in over:
+            done(session.snapshot)

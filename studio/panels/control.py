@@ -16,6 +16,7 @@ from studio.panels.inputs import Post
 
 ORDER = -10.0  # under the state and Stop, above all else
 CLOSED = "The page that controlled Baxter was closed or lost its line, so Baxter was let go."
+_STOPPING = (commands.Stop, commands.StopLink, commands.DisableLink)
 _TOLD_EVERY = 3.0  # [s] between two refusals of one browser, which may drag a slider
 
 
@@ -51,17 +52,24 @@ class Control:
         server.on_client_disconnect(self._leave)
 
     def post(self, command: Command) -> None:
-        """Pass a command on; where it comes from a browser that only watches, refuse in words."""
-        if self.allows():
+        """Pass a command on; where it comes from a browser that only watches, refuse in words.
+
+        What stops a robot is never refused: who sees that it has to stop may be who watches.
+        """
+        if self.allows(anybody=isinstance(command, _STOPPING)):
             self._post(command)
 
-    def allows(self) -> bool:
-        """Tell whether whoever is heard on this thread may act, and say so where not."""
+    def allows(self, anybody: bool = False) -> bool:
+        """Tell whether whoever is heard on this thread may act, and say so where not.
+
+        ``anybody`` may do it without control.
+        """
         client = speaker()
         refusal = "" if client is None else self._seat.act(client)
-        if refusal and client is not None:
-            self._refuse(client, refusal)
-        return not refusal
+        if client is None or anybody or not refusal:
+            return True
+        self._refuse(client, refusal)
+        return False
 
     def holder(self) -> viser.ClientHandle | None:
         """Return the browser in control."""

@@ -1,5 +1,6 @@
 """Demonstrations and their files: what comes in, what stays with it, and what goes for good."""
 
+import os
 import shutil
 from pathlib import Path
 
@@ -11,7 +12,9 @@ from studio.engine.errors import FileError, StudioError
 from studio.engine.experiment import Setup
 from studio.engine.export import Job, Material
 from studio.engine.export.session_file import write as write_session
+from studio.engine.export.session_reader import is_session
 from studio.engine.mcap_file import read_recording, write_recording
+from studio.engine.mcap_log import is_mcap
 from studio.engine.recording import Recording
 from studio.engine.resources import samples_folder
 from tests.engine.cards_at_hand import sample, takes
@@ -244,3 +247,15 @@ def test_what_cannot_be_saved_is_told_once(desk: Desk, monkeypatch: pytest.Monke
         desk.wait()
     desk.wait()
     assert desk.names == ["other"]
+
+
+def test_a_pipe_is_refused_and_not_waited_for(desk: Desk) -> None:
+    pipe = desk.folder / "pipe.mcap"
+    os.mkfifo(pipe)
+    assert not is_session(pipe)
+    assert not is_mcap(pipe)
+    with pytest.raises(FileError, match="pipe or a device"):
+        desk.collection.take(commands.AddFrom(pipe))
+    with pytest.raises(FileError, match="no recording in that folder"):
+        desk.collection.take(commands.AddFrom(desk.folder))
+    assert desk.asked == []

@@ -140,3 +140,48 @@ def test_nobody_waits_for_steps_that_never_come() -> None:
     stopping.set()
     steps.run(SimpleNamespace(snapshot=0), stopping, told.append)
     assert told == [0]
+
+
+def test_steps_do_not_outlive_their_owner(bench: Bench) -> None:
+    bench.take()
+    begun, go_on = threading.Event(), threading.Event()
+    inner = bench.session.tick
+
+    def tick() -> int:
+        begun.set()
+        assert go_on.wait(10.0)
+        return inner()
+
+    bench.session.tick = tick
+    answers: list[str] = []
+    done = threading.Event()
+    bench.steps.ask(1000, lambda _: answers.append("first"))
+    assert begun.wait(10.0)
+    bench.steps.give()
+    bench.steps.take(5.0, lambda _: None, lambda: None)  # within the tick that goes on
+    bench.steps.ask(1, lambda _: (answers.append("second"), done.set()))
+    go_on.set()
+    assert done.wait(10.0)
+    assert (answers, bench.session.snapshot) == (["first", "second"], 2)
+
+
+def test_given_back_before_the_loop_looks_nothing_is_left_of_it() -> None:
+    steps, session, told = Steps(lambda: 0.0), Session(), []
+    steps.take(1.0, lambda _: told.append("taken"), lambda: None)
+    steps.ask(5, lambda _: told.append("stepped"))
+    steps.give()
+    assert steps.is_due  # somebody waits for an answer
+    steps.run(session, threading.Event(), told.append)
+    assert (told, session.snapshot, steps.is_due) == (["stepped"], 0, False)
+
+
+def test_the_patience_of_one_is_not_used_up_by_another(bench: Bench) -> None:
+    bench.take(patience=100.0)
+    bench.time = 50.0
+    heard = threading.Event()
+    with bench.steps._condition:  # the loop does not look in between
+        bench.steps.give()
+        bench.steps.take(1.0, lambda _: heard.set(), bench.lost.set)
+    assert heard.wait(10.0)
+    assert bench.step(1) == 1
+    assert not bench.lost.is_set()

@@ -105,7 +105,7 @@ def test_the_first_to_act_controls_and_others_are_refused_in_words(hall: Hall) -
     assert hall.posted == [commands.Watch()]
     assert first.told == [WATCHING]  # not at every move of a slider
     hall.time += 10.0
-    hall.ask(first, commands.Stop())
+    hall.ask(first, commands.Watch())
     assert first.told == [WATCHING, WATCHING]
     assert hall.control.holder() is second
     assert "You control" in second.gui.parts["words"].content
@@ -175,3 +175,14 @@ def test_a_program_is_asked_for_control_as_another_page_is(monkeypatch) -> None:
     hall.ask(page, commands.Watch())
     assert hall.posted == [commands.Watch()]
     assert not hall.control.is_elsewhere
+
+
+def test_who_watches_may_stop_the_robot_all_the_same(hall: Hall) -> None:
+    first, second = hall.open(1), hall.open(2)
+    hall.ask(first, commands.Watch())
+    stops = [commands.Stop(), commands.StopLink(), commands.DisableLink()]
+    for command in stops:
+        hall.ask(second, command)
+    assert hall.posted == [commands.Watch(), *stops]
+    assert second.told == []
+    assert hall.control.holder() is first

@@ -30,7 +30,7 @@ def test_its_numbers_are_those_of_the_code() -> None:
         f"more than {house.most} programs",
         f"after {server._SEND_WITHIN:.0f} s the connection is closed",
         f"asked every {house.alive_every:.0f} s, and gone after {house.alive_every:.0f} more",
-        f"after {guest.MOST_UNREADABLE} in a row",
+        f"after {guest.MOST_UNREADABLE} at once",
         f"at up to {asked.FASTEST:.0f} Hz",
     ):
         assert words in PAGE, words

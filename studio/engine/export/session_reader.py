@@ -41,8 +41,10 @@ _ENCRYPTED = 0x1  # a flag of a file
 
 
 def is_session(path: Path) -> bool:
-    """Tell whether a file begins as an archive does; a missing file does not."""
+    """Tell whether a file begins as an archive does; a missing file does not, nor a pipe."""
     try:
+        if not path.is_file():  # to open a pipe would wait for whoever writes into it
+            return False
         with path.open("rb") as file:
             return file.read(4) == b"PK\x03\x04"
     except (OSError, ValueError):

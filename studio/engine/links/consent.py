@@ -20,6 +20,8 @@ CONFIRM = (
     "emergency stop is at hand"
 )
 
+DRIVEN = "A program drives the page's robot, and no other follows it there: stop it first"
+
 
 def enable(memory: Memory, seen: Seen) -> Memory:
     """Return the memory after a person asked to enable; raise StudioError in words where not."""
@@ -39,11 +41,13 @@ def confirm(
     Raises
     ------
     StudioError
-        Where it was not confirmed, the robot is not enabled or does not tell all joints of its
-        arms, or is outside its limits.
+        Where it was not confirmed, a program drives the page's robot, or this one is not enabled,
+        does not tell all joints of its arms, or is outside its limits.
     """
     if memory.phase in (Phase.OFF, Phase.ENABLING):
         raise StudioError(f"Enable the robot first: {memory.why}")
+    if wanted.driven:
+        raise StudioError(DRIVEN)
     if not confirmed:
         raise StudioError(CONFIRM)
     state = _required(seen)

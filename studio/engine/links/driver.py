@@ -54,7 +54,9 @@ class LinkThread:
         self.sent = 0  # commands that left
         self._lock = threading.Lock()
         self._slot: tuple[float, Mapping[str, float]] | None = None
-        self._orders: deque[Order] = deque()
+        self._orders: deque[tuple[Order, float | None]] = (
+            deque()
+        )  # [s] since when it may be too late
         self._news, self._closing = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="robot link", daemon=True)
         self._thread.start()
@@ -68,13 +70,21 @@ class LinkThread:
 
     def order(self, order: Order) -> None:
         """Let the link do something else, in the order of the calls, if it is open."""
+        self._put_order(order, None)
+
+    def enable(self) -> None:
+        """Let the link power the motors, soon or not at all: a stop after this comes first."""
+        self._put_order(lambda link: link.enable(), self._now())
+
+    def halt(self) -> None:
+        """Send no targets that wait, and power no motors."""
         with self._lock:
-            if self.is_open:
-                self._orders.append(order)
-        self._news.set()
+            self._halt()
 
     def end(self) -> None:
-        """Let it end, soon; what waits is not sent."""
+        """Let it end, soon: targets that wait are not sent, but orders are, such as to disable."""
+        with self._lock:
+            self._halt()
         self._closing.set()
         self._news.set()
 
@@ -82,6 +92,17 @@ class LinkThread:
         """End it, and wait for that, though not for ever: no tick may call this."""
         self.end()
         self._thread.join(_LONGEST_CLOSE)
+
+    def _put_order(self, order: Order, since: float | None) -> None:
+        with self._lock:
+            if self.is_open:
+                self._orders.append((order, since))
+        self._news.set()
+
+    def _halt(self) -> None:
+        """Drop what makes the robot move; the lock is held."""
+        self._slot = None
+        self._orders = deque(each for each in self._orders if each[1] is None)
 
     def _run(self) -> None:
         while not self._closing.is_set():
@@ -112,17 +133,26 @@ class LinkThread:
                 at = self._now()
                 clocks = lateness(clocks, state.stamp, at)
                 self.heard = Heard(state, at, clocks.late if clocks else 0.0)
+        self._pass_on()  # orders that came with the end
 
     def _pass_on(self) -> None:
         """Send what waits, orders first: one of them may be the end of it."""
-        with self._lock:
-            orders, self._orders = list(self._orders), deque()
-            waiting, self._slot = self._slot, None
-        for order in orders:
+        while (order := self._next_order()) is not None:
             order(self._link)
+        with self._lock:
+            waiting, self._slot = self._slot, None
         if waiting is not None and self._now() - waiting[0] <= STALE and not self._closing.is_set():
             self._link.send(waiting[1])
             self.sent += 1
+
+    def _next_order(self) -> Order | None:
+        """Return the next order that is not too late, one by one: a stop may come between two."""
+        with self._lock:
+            while self._orders:
+                order, since = self._orders.popleft()
+                if since is None or self._now() - since <= STALE:
+                    return order
+        return None
 
     def _forget(self) -> None:
         with self._lock:

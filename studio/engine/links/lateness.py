@@ -21,8 +21,8 @@ class Lateness:
 
 def lateness(before: Lateness | None, stamp: float | None, heard: float) -> Lateness | None:
     """Return how late a message with this ``stamp`` [s] was that was ``heard`` [s] now."""
-    if stamp is None:
-        return None
+    if stamp is None:  # tells nothing, and makes nothing forgotten
+        return before
     apart = heard - stamp
     if before is None:
         return Lateness(apart, heard)

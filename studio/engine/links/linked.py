@@ -75,6 +75,7 @@ class Linked:
         link = link_at(url, self._now)
         self._let_go()
         self._thread = LinkThread(link, self._now)
+        self.status = LinkStatus(url=link.url)  # at once: nobody may take the clock from now on
         return f"Connecting to {link.url}."
 
     def tick(self, activity: Activity, choices: Choices) -> str:
@@ -103,7 +104,7 @@ class Linked:
         thread = self._required()
         if isinstance(command, commands.EnableLink):
             self._memory = consent.enable(self._memory, self._seen)
-            thread.order(lambda link: link.enable())
+            thread.enable()
         elif self._wanted is not None:
             self._memory = consent.confirm(
                 self._memory, self._seen, self._wanted, thread.limits, command.confirmed
@@ -126,9 +127,11 @@ class Linked:
 
     def _stop(self, why: str) -> str:
         """Send nothing more, not even what waits."""
-        if self._thread is None or self._memory.phase is Phase.OFF:
+        if self._thread is None:
             return ""
-        self._thread.put(None)
+        self._thread.halt()
+        if self._memory.phase is Phase.OFF:
+            return ""
         self._memory = consent.stop(self._memory, f"{why} Enable and confirm anew.")
         return "The robot is stopped, too: enable and confirm it anew to go on."
 

@@ -63,13 +63,14 @@ class MovingCheck:
         finally:
             self._memory = consent.stop(self._memory, "The check is over.")
             self._looking.thread.put(None)
+            self._looking.thread.order(lambda link: link.disable())  # after Ctrl-C, too
         yield self._power_off()
 
     def _begin(self) -> Finding:
         """Enable, and confirm the start where the robot is: a way of nothing."""
         thread = self._looking.thread
         self._memory = consent.enable(self._memory, self._seen())
-        thread.order(lambda link: link.enable())
+        thread.enable()
         self._until(lambda: self._memory.phase is not Phase.ENABLING)
         if self._memory.phase is not Phase.WAITING:
             return Finding("enabling", False, self._memory.why)
@@ -113,8 +114,12 @@ class MovingCheck:
     def _watchdog(self) -> Finding:
         """Send nothing in mid-motion, as a studio that stalls: the robot has to stand."""
         column = JOINT_NAMES.index(f"{self._side}_s0")
+        before = self._looking.thread.sent
         self._ramp(column, BY / 2, waits=False)
         sent = self._looking.thread.sent
+        if self._memory.phase is not Phase.READY or sent == before:
+            words = self._memory.why or "the guard held it"
+            return Finding("watchdog", False, f"nothing was sent that could end: {words}")
         self._looking.wait_for(lambda: False, 2 * STALE)
         stood, late = self._state().positions, self._looking.thread.sent - sent
         self._looking.wait_for(lambda: False, _LOOKS)
@@ -138,9 +143,6 @@ class MovingCheck:
         return Finding(name, stopped, words)
 
     def _power_off(self) -> Finding:
-        thread = self._looking.thread
-        thread.order(lambda link: link.disable())
-
         def is_off() -> bool:
             state = self._seen().state
             return state is not None and not state.enabled

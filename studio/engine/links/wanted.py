@@ -9,6 +9,7 @@ from studio.engine.robot import JOINT_NAMES
 from studio.engine.scene import Scene
 from studio.engine.showing import Show
 from studio.engine.skeleton import FloatArray
+from studio.engine.snapshot import Mode
 
 NOTHING_GOES_ON = "nobody teaches and nothing plays"
 GATE_CLOSED = "the gate is closed"
@@ -26,6 +27,7 @@ class Wanted:
     arms: Arms  # that are driven
     scene: Scene  # what the guard keeps them away from
     gripper: bool = False  # whether the guard has to count with fingers
+    driven: bool = False  # by a program's targets, which are for no other robot
 
 
 def wanted_of(activity: Activity, choices: Choices) -> Wanted:
@@ -37,7 +39,8 @@ def wanted_of(activity: Activity, choices: Choices) -> Wanted:
         positions, why_not = activity.seen.world.joint_positions, _why_not_play(activity)
     gripper = choices.hands.gripper
     scene = activity.world.scene
-    return Wanted(positions, not why_not, why_not, choices.arms, scene, gripper)
+    driven = activity.mode is Mode.DRIVEN
+    return Wanted(positions, not why_not, why_not, choices.arms, scene, gripper, driven)
 
 
 def _followed(activity: Follow, measured: FloatArray) -> FloatArray:

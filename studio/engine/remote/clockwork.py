@@ -8,9 +8,11 @@ from studio.engine.remote.views import block, joint_states
 from studio.engine.snapshot import Snapshot
 from studio.engine.stepping import Steps
 from studio.remote.asked import Step, TakeClock
-from studio.remote.told import ClockLost, Done, Stepped
+from studio.remote.told import ClockLost, Done, Error, Stepped
 
 _STALLED = "no step was asked for in {:g} s: time goes on by itself, take the clock again"
+LINKED = "a robot beyond the simulator is linked, which goes by real time"
+_NEVER_TAKEN = "the clock was given back before the world stood still"
 SEAT_LOST = "this program does not control Baxter any more: time goes on by itself"
 
 
@@ -35,6 +37,8 @@ class Clockwork:
     ) -> None:
         self._steps, self._later, self._tick = steps, later, tick
         self.owner: Guest | None = None
+        self._turn = 0  # raised by each `take`: what an older one still hears of is not meant
+        self._taking: int | None = None  # the number of a request that is not answered yet
 
     def take(self, guest: Guest, asked: TakeClock) -> None:
         """Give the clock to a guest; it is told once the world stands still.
@@ -44,13 +48,15 @@ class Clockwork:
         StudioError
             Where somebody has it.
         """
-        words = _STALLED.format(asked.patience)
+        if self.owner is not None:
+            raise StudioError("a program has the clock already")
+        turn, words = self._turn + 1, _STALLED.format(asked.patience)
         self._steps.take(
             asked.patience,
-            lambda now: self._later(lambda: self._tell(guest, asked.id, now)),
-            lambda: self._later(lambda: self.end(words, guest)),
+            lambda now: self._later(lambda: self._taken(turn, now)),
+            lambda: self._later(lambda: self._lost(turn, words)),
         )
-        self.owner = guest
+        self.owner, self._turn, self._taking = guest, turn, asked.id
 
     def step(self, guest: Guest, asked: Step) -> None:
         """Let ticks pass; the guest is told when they have.
@@ -78,7 +84,10 @@ class Clockwork:
             return
         self.owner = None
         self._steps.give()
-        if why:
+        if self._taking is not None:
+            owner.outbox.answer(Error(words=why or _NEVER_TAKEN, id=self._taking))
+            self._taking = None
+        elif why:
             owner.outbox.answer(ClockLost(words=why))
 
     def nudge(self) -> None:
@@ -88,6 +97,16 @@ class Clockwork:
     def _require(self, guest: Guest) -> None:
         if self.owner is not guest:
             raise StudioError("this program has not the clock: send take_clock first")
+
+    def _taken(self, turn: int, now: Snapshot) -> None:
+        number, owner = self._taking, self.owner
+        if turn == self._turn and owner is not None and number is not None:
+            self._taking = None
+            self._tell(owner, number, now)
+
+    def _lost(self, turn: int, why: str) -> None:
+        if turn == self._turn:
+            self.end(why)
 
     def _tell(self, guest: Guest, number: int, now: Snapshot) -> None:
         tick = self._tick()

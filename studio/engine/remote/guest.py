@@ -11,7 +11,7 @@ from studio.remote.asked import Stream
 FLOOD = 5_000.0  # messages a second; whoever sends more costs time even unread, and is sent away
 FASTEST = 1_000.0  # of them that are answered, joint targets apart
 _BURST = 500.0
-MOST_UNREADABLE = 20  # messages in a row, a fifth of them a second from then on
+MOST_UNREADABLE = 20  # messages at once; a few more a second are forgiven
 _FORGIVEN = 5.0  # a second
 MOST_WAITING = 32  # commands that have not taken effect
 COMPLAIN_EVERY = 1.0  # [s] between two errors that answer no request

@@ -11,7 +11,7 @@ from studio.engine.errors import StudioError
 from studio.engine.export.model import write_model
 from studio.engine.performance import in_guards_words
 from studio.engine.remote.views import ADAPTERS
-from studio.engine.remote.wire import as_message
+from studio.engine.remote.wire import as_message, readable
 from studio.engine.snapshot import Snapshot
 from studio.engine.teaching import Lesson
 from studio.rbf import NewrbRegressor, RBFRegressor
@@ -95,7 +95,7 @@ def demonstration(asked: FetchDemonstration, now: Snapshot) -> told.Demonstratio
             return told.Demonstration(
                 id=asked.id,
                 number=entry.number,
-                name=entry.name,
+                name=readable(entry.name),
                 joints=list(shown.joints),
                 times=shown.times.tolist(),
                 sent=shown.sent.tolist(),

@@ -9,13 +9,14 @@ from collections.abc import Callable
 
 import studio
 from studio.engine.errors import StudioError
-from studio.engine.remote.clockwork import SEAT_LOST, Clockwork
+from studio.engine.remote.clockwork import LINKED, SEAT_LOST, Clockwork
 from studio.engine.remote.guest import FLOOD, Guest
 from studio.engine.remote.reading import UnreadableError, read_message
 from studio.engine.remote.requests import Hosted, Requests
 from studio.engine.remote.roles import Roles
 from studio.engine.remote.shelf import Shelf
 from studio.engine.remote.views import Frame, frame_of
+from studio.engine.remote.wire import readable
 from studio.engine.robot import CONTROL_PERIOD, JOINT_NAMES, load_robot
 from studio.engine.seat import Seat
 from studio.engine.snapshot import Snapshot
@@ -149,6 +150,8 @@ class Reception:
         owner = self._clock.owner
         if owner is not None and not self._roles.controls(owner):
             self._clock.end(SEAT_LOST)
+        if owner is not None and self._requests.is_linked():
+            self._clock.end(LINKED)
 
     def close(self) -> None:
         """Let go of everything: time goes on by itself, uploads are deleted."""
@@ -167,4 +170,4 @@ class Reception:
     def _refuse(self, guest: Guest, number: int | None, words: str) -> None:
         """Answer a request with why it is impossible; what is no request, now and then."""
         if number is not None or guest.may_complain(self._now()):
-            guest.outbox.answer(told.Error(words=words, id=number))
+            guest.outbox.answer(told.Error(words=readable(words), id=number))

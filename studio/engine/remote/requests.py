@@ -1,6 +1,6 @@
 """Requests of programs, served: each kind by a few lines, which answer into the guest's outbox.
 
-Whoever controls may act, everybody may read.
+Whoever controls may act, everybody may read, and stop the robot.
 """
 
 from collections.abc import Callable
@@ -18,17 +18,18 @@ from studio.engine.remote.large import demonstration, large
 from studio.engine.remote.roles import Roles
 from studio.engine.remote.shelf import Shelf
 from studio.engine.remote.views import frame_of
-from studio.engine.remote.wire import as_command
-from studio.engine.robot import CONTROL_RATE
+from studio.engine.remote.wire import as_command, readable
+from studio.engine.robot import CONTROL_RATE, JOINT_NAMES
 from studio.engine.scene_file import scene_names
 from studio.engine.snapshot import Message, Mode, Snapshot
 from studio.remote import asked as wire
 from studio.remote import told
-from studio.remote.commands import SetJointTarget
+from studio.remote.commands import DisableLink, SetJointTarget, Stop, StopLink
 
 LET_GO = "The program that controlled Baxter has let go of it."
 # A program that steps faster than real time would move it faster than its limits allow.
 _REAL_TIME = "a robot beyond the simulator goes by real time"
+_STOPPING = (Stop, StopLink, DisableLink)  # by anybody, as on the page
 _CAN_BE_DRIVEN = (Mode.IDLE, Mode.TRAINING, Mode.DRIVEN)
 
 
@@ -105,8 +106,16 @@ class Requests:
             return
         self._clock.nudge()
 
+    def is_linked(self) -> bool:
+        """Tell whether a robot beyond the simulator is linked."""
+        try:
+            return bool(self._session().snapshot.link.url)
+        except StudioError:  # the engine has ended before its programs
+            return False
+
     def _target(self, guest: Guest, asked: SetJointTarget) -> None:
         self._roles.require(guest)
+        _require_joints(asked)
         session = self._session()
         if session.snapshot.mode not in _CAN_BE_DRIVEN:
             raise StudioError("somebody teaches, or something plays: send stop first")
@@ -120,9 +129,11 @@ class Requests:
             self._refuse(guest, None, said.text)
 
     def _do(self, guest: Guest, asked: wire.Do) -> None:
-        self._roles.require(guest)
+        self._roles.require(guest, anybody=isinstance(asked.command, _STOPPING))
         if guest.waiting >= MOST_WAITING:
             raise StudioError(f"{MOST_WAITING} commands wait for a tick: wait for their answers")
+        if isinstance(asked.command, SetJointTarget):
+            _require_joints(asked.command)
         session = self._session()
         now = session.snapshot
         command = as_command(asked.command, lambda place: self._shelf.find(guest.name, place, now))
@@ -142,7 +153,7 @@ class Requests:
             self._refuse(guest, number, said.text)
         elif number is not None:
             words = "" if said is None else said.text
-            guest.outbox.answer(told.Done(id=number, words=words))
+            guest.outbox.answer(told.Done(id=number, words=readable(words)))
 
     def _get(self, guest: Guest, asked: wire.Get) -> None:
         frame = frame_of(asked.what, self._session().snapshot, self._tick())
@@ -163,7 +174,7 @@ class Requests:
 
     def _take_clock(self, guest: Guest, asked: wire.TakeClock) -> None:
         self._roles.require(guest)
-        if self._session().snapshot.link.url:
+        if self.is_linked():
             raise StudioError(f"{_REAL_TIME}: disconnect it first, then take the clock")
         self._clock.take(guest, asked)
 
@@ -188,3 +199,12 @@ class Requests:
 
     def _on_thread(self, act: Callable[[Message | None], None], said: Message | None) -> None:
         self._later(partial(act, said))
+
+
+def _require_joints(asked: SetJointTarget) -> None:
+    """Let only joints through, that the engine gathers no names; raise StudioError for others."""
+    for name in asked.targets:
+        if name not in JOINT_NAMES:
+            raise StudioError(
+                f"{name!r:.40} cannot be driven: the joints are {', '.join(JOINT_NAMES)}"
+            )

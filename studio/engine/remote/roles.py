@@ -25,9 +25,12 @@ class Roles:
     def __init__(self, seat: Seat, now: Callable[[], float]) -> None:
         self._seat, self._now = seat, now
 
-    def require(self, guest: Guest) -> None:
-        """Let a guest act; raise StudioError, which says who controls, where it may not."""
-        if self._seat.act(guest.name):
+    def require(self, guest: Guest, anybody: bool = False) -> None:
+        """Let a guest act; raise StudioError, which says who controls, where it may not.
+
+        ``anybody`` may do it without control.
+        """
+        if self._seat.act(guest.name) and not anybody:
             who = self._seat.called(self._seat.holder)
             raise StudioError(f"{who} controls Baxter: ask for control first, {_ASK}")
 

@@ -141,6 +141,9 @@ class RemoteServer:
             pass
         except TimeoutError:
             await connection.close(CloseCode.POLICY_VIOLATION, "does not read its answers")
+        except Exception:  # as in `_handle`, which would wait for messages for ever
+            _LOG.exception("an answer to a program cannot be sent")
+            await connection.close(CloseCode.INTERNAL_ERROR, "the studio has failed")
 
     async def _tell(self, connection: ServerConnection, told: Told) -> None:
         text = msgspec.json.encode(told).decode()

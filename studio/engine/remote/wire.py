@@ -57,6 +57,11 @@ def _value(hint: Any, value: Any, find: Callable[[Any], tuple[Path, str]]) -> An
     return value
 
 
+def readable(text: str) -> str:
+    """Return a text as JSON can have it: a file's name may have bytes that are no characters."""
+    return text.encode("utf-8", "replace").decode()
+
+
 def as_message(kind: type[_Part], value: Any, adapters: Adapters, **more: Any) -> _Part:
     """Return a message of a kind, each of its fields from the value's attribute of that name.
 
@@ -100,7 +105,7 @@ def _told(hint: Any, value: Any, adapters: Adapters) -> Any:
     if hint is float and not math.isfinite(value):
         raise ValueError(f"a number that is not finite cannot be told: {value}")
     if origin is Literal or hint is str:
-        return value.name if isinstance(value, Path) else str(value)
+        return readable(value.name if isinstance(value, Path) else str(value))
     return hint(value) if hint in (float, int, bool) else value
 
 

@@ -1,5 +1,7 @@
 """Commands as messages. Written by docs/make_remote_schema.py: change it there."""
 
+from typing import Annotated
+
 import msgspec
 
 from studio.remote.message import Message, Text
@@ -11,5 +13,8 @@ class SetJointTarget(Message, frozen=True):
     The first one begins it, slowly. None at all is a sign of life: go on with the last ones.
     """
 
-    targets: dict[Text, float] = msgspec.field(default_factory=dict)  # [rad] by joint, as left_s0
+    # [rad] by joint, as left_s0
+    targets: Annotated[dict[Text, float], msgspec.Meta(max_length=15)] = msgspec.field(
+        default_factory=dict
+    )
     closed: bool | None = None  # the grippers of the driven arms; None: as they are

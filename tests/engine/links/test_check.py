@@ -7,7 +7,7 @@ from unittest.mock import ANY
 import numpy as np
 import pytest
 
-from studio.engine.links import check, moving_check
+from studio.engine.links import check, consent, moving_check
 from studio.engine.links.address import link_at
 from studio.engine.links.check import RISES, Finding, Looking, look
 from studio.engine.links.driver import LinkThread
@@ -135,3 +135,31 @@ def test_what_a_person_should_see_is_what_the_kinematics_say() -> None:
             else:  # a screw that is turned clockwise goes away from who looks
                 assert "clockwise" in words
                 assert axis @ arm / np.linalg.norm(arm) > 0.9
+
+
+@pytest.mark.parametrize("robot", [RosbridgeServer], indirect=True)
+def test_interrupted_by_a_person_it_takes_the_power_off(robot, looking: Looking) -> None:
+    list(look(looking))
+
+    def ask(_: str) -> bool | None:
+        assert robot.arms.powered
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        list(MovingCheck(looking, "left", ask).findings())
+    looking.thread.close()
+    deadline = time.monotonic() + 5.0
+    while robot.arms.powered:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+@pytest.mark.parametrize("robot", [RosbridgeServer], indirect=True)
+def test_a_watchdog_to_which_nothing_was_sent_has_not_passed(robot, looking: Looking) -> None:
+    list(look(looking))
+    checked = MovingCheck(looking, "left", lambda _: None)
+    assert checked._begin().passed
+    checked._memory = consent.stop(checked._memory, "Somebody stopped it.")
+    found = checked._watchdog()
+    assert not found.passed
+    assert "nothing was sent" in found.words

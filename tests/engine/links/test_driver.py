@@ -152,3 +152,41 @@ def test_states_have_their_age(bench: Bench, thread: LinkThread, clock: Clock) -
     bench.news = True
     eventually(lambda: thread.heard is not None)
     assert thread.heard.age(clock.time + 0.1) == pytest.approx(0.1)
+
+
+def test_orders_that_wait_at_the_end_are_done_and_targets_are_not(
+    bench: Bench, thread: LinkThread
+) -> None:
+    bench.free.clear()
+    thread.put({"left_s0": 0.1})
+    eventually(lambda: thread._slot is None)
+    thread.put({"left_s0": 0.2})
+    thread.enable()
+    thread.order(lambda link: link.disable())
+    thread.end()
+    bench.free.set()
+    thread.close()
+    assert (bench.told, bench.sent) == (["disable"], [{"left_s0": 0.1}])
+
+
+@pytest.mark.parametrize("ends", ["halted", "late"])
+def test_no_motor_is_powered_after_a_stop_or_late(
+    bench: Bench, thread: LinkThread, clock: Clock, ends: str
+) -> None:
+    bench.free.clear()
+    thread.put({"left_s0": 0.1})
+    eventually(lambda: thread._slot is None)
+    thread.enable()
+    thread.order(lambda link: bench.told.append("asked later"))
+    if ends == "halted":
+        thread.halt()
+    else:
+        clock.time += STALE + 0.01
+    bench.free.set()
+    eventually(lambda: bench.told)
+    assert bench.told == ["asked later"]
+
+
+def test_motors_are_powered_when_asked_in_time(bench: Bench, thread: LinkThread) -> None:
+    thread.enable()
+    eventually(lambda: bench.told == ["enable"])

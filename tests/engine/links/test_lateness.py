@@ -35,3 +35,9 @@ def test_clocks_that_run_apart_are_not_late(drift: float) -> None:
 
 def test_without_stamps_nothing_is_known() -> None:
     assert lateness(None, None, 1.0) is None
+
+
+def test_a_message_without_a_stamp_makes_nothing_forgotten() -> None:
+    before = lateness(lateness(None, 0.0, 0.01), 1.0, 1.5)
+    assert before.late > 0.48
+    assert lateness(before, None, 1.6) is before

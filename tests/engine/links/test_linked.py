@@ -28,6 +28,7 @@ class Direct:
 
     def __init__(self, link: object, now) -> None:
         self.now, self.ratio, self.ended, self.silent = now, 0.0, False, False
+        self.halted = 0
         Direct.newest = self
 
     @property
@@ -36,6 +37,10 @@ class Direct:
 
     def put(self, targets: dict[str, float] | None) -> None:
         self.model.obey(targets)
+
+    def halt(self) -> None:
+        self.halted += 1
+        self.model.obey(None)
 
     def order(self, order) -> None:
         order(self)
@@ -297,3 +302,29 @@ def test_without_a_clock_there_is_no_robot(tmp_path: Path) -> None:
         assert "studio serve" in now.message.text
     finally:
         session.close()
+
+
+def test_a_stop_halts_the_link_s_thread_in_whatever_phase(desk: Desk) -> None:
+    desk.do(commands.ConnectLink("simulated://"))
+    desk.do(commands.Stop())
+    assert Direct.newest.halted == 1
+
+
+def test_a_link_is_known_at_once(desk: Desk) -> None:
+    desk.session.post(commands.ConnectLink("simulated://"))
+    desk.session.hear()
+    assert desk.session.snapshot.link.url == "simulated://"
+
+
+def test_no_robot_goes_where_a_program_drives_the_page_s(desk: Desk) -> None:
+    desk.do(commands.ConnectLink("simulated://"))
+    desk.do()
+    desk.do(commands.EnableLink())
+    desk.do(commands.SetJointTarget({"left_s0": 0.3}))
+    refused = desk.do(commands.StartLink(confirmed=True))
+    assert refused.message.is_error
+    assert "A program drives" in refused.message.text
+    assert (refused.link.phase, desk.model.commands) == (Phase.WAITING, [])
+    desk.do(commands.Stop())
+    desk.do(commands.EnableLink())
+    assert desk.do(commands.StartLink(confirmed=True)).link.phase is Phase.STARTING

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from studio.engine import commands
 from studio.engine.remote.guest import FLOOD, MOST_UNREADABLE, MOST_WAITING
 from studio.engine.remote.outbox import MOST_ANSWERS
 from studio.engine.remote.reception import CLOSED, LeaveError
@@ -91,7 +92,7 @@ def test_only_whoever_controls_acts(hall: Hall) -> None:
     assert hall.seat.act(page) == ""
     hall.told(guest)
     for message in (
-        {"type": "do", "id": 1, "command": {"type": "stop"}},
+        {"type": "do", "id": 1, "command": {"type": "use_demonstrator"}},
         {"type": "take_clock", "id": 1},
     ):
         (error,) = hall.ask(guest, message)
@@ -296,3 +297,56 @@ def test_whatever_is_asked_in_whatever_order_no_fault_of_ours_comes_of_it(
             told = hall.told(guest)
             assert all("fault" not in json.dumps(each).lower() for each in told)
         hall.ask(guest, {"type": "get", "id": 9, "what": "snapshot"})
+
+
+def test_who_only_watches_may_stop_the_robot_all_the_same(hall: Hall) -> None:
+    first, second = hall.enter(), hall.enter()
+    hall.do(first, "use_demonstrator")
+    hall.do(first, "record")
+    assert "ask for control" not in hall.do(second, "stop")["words"]
+    assert hall.session.snapshot.mode is Mode.IDLE
+    hall.do(first, "connect_link", url="simulated://")
+    for kind in ("stop_link", "disable_link"):
+        assert "ask for control" not in hall.do(second, kind)["words"]
+    assert hall.seat.holder == first.name
+
+
+def test_the_clock_ends_where_a_robot_is_linked_after_it_was_taken(hall: Hall) -> None:
+    guest = hall.enter()
+    assert hall.ask(guest, {"type": "take_clock", "id": 1})[1:] == []
+    hall.session.post(commands.ConnectLink("simulated://"))
+    hall.session.hear()
+    assert hall.session.snapshot.link.url == "simulated://"
+    hall.told(guest)
+    hall.reception.look()
+    assert not hall.steps.is_held
+    error = next(each for each in hall.told(guest) if each["type"] == "error")
+    assert (error["id"], "goes by real time" in error["words"]) == (1, True)
+
+
+def test_a_clock_given_back_before_the_world_stood_still_is_answered(hall: Hall) -> None:
+    guest = hall.enter()
+    hall.ask(guest, {"type": "take_clock", "id": 1})
+    error, done = hall.ask(guest, {"type": "give_clock", "id": 2})
+    assert (error["type"], error["id"]) == ("error", 1)
+    assert (done["type"], done["id"]) == ("done", 2)
+
+
+@pytest.mark.parametrize("count", [1, 16])
+def test_names_of_no_joint_never_reach_the_engine(hall: Hall, count: int) -> None:
+    guest = hall.enter()
+    hall.told(guest)
+    target = {"type": "set_joint_target", "targets": dict.fromkeys(map(str, range(count)), 0.0)}
+    posted = []
+    hall.session.post = lambda command, *_: posted.append(command)
+    (error,) = hall.ask(guest, {"type": "do", "id": 1, "command": target})
+    assert error["id"] == 1
+    assert hall.ask(guest, target)[0]["type"] == "error"
+    assert posted == []
+
+
+def test_words_that_are_no_characters_are_told_with_replacements(hall: Hall) -> None:
+    guest = hall.enter()
+    hall.told(guest)
+    hall.reception._refuse(guest, 1, "no\udcff")
+    assert hall.told(guest)[0]["words"] == "no?"

@@ -12,7 +12,7 @@ import pytest
 
 from studio.engine import commands as engine
 from studio.engine.errors import StudioError
-from studio.engine.remote.wire import as_command, as_message
+from studio.engine.remote.wire import as_command, as_message, readable
 from studio.engine.scene import Scene
 from studio.remote import commands
 from studio.remote.files import Sample
@@ -132,3 +132,10 @@ def test_where_nobody_knows_a_joint_it_is_null() -> None:
     robot |= dict.fromkeys(("is_connected", "is_enabled", "resets", "is_moving"), False)
     robot |= {"ratio": 0.3, "lag": 0.0, "measured": np.array([0.1, np.nan])}
     assert as_message(LinkedRobot, None, {}, **robot).measured == [0.1, None]
+
+
+def test_a_file_s_name_may_have_bytes_that_are_no_characters() -> None:
+    assert readable("r\udcff.mcap") == "r?.mcap"
+    assert readable("Größe.mcap") == "Größe.mcap"
+    told = as_message(News, Told(text="r\udcff"), {})
+    assert msgspec.json.decode(msgspec.json.encode(told))["text"] == "r?"
