@@ -29,7 +29,7 @@ from studio.export_command import Export
 from studio.inspect_command import Inspect
 from studio.link_command import Link
 from studio.live_commands import Listen, Play
-from studio.scene_option import SceneFlag
+from studio.scene_option import SceneFlag, TaughtSceneFlag, taught_scene
 from studio.serve_command import Serve
 from studio.sweep_command import Sweep
 from studio.webcam_command import Webcam
@@ -142,7 +142,7 @@ class Teach:
     fails."""
     interpolation: Interpolation = "even"
     """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
-    scene: SceneFlag = DEFAULT_SCENE
+    scene: TaughtSceneFlag = None
     gripper: GripperFlag = False
     wrist: WristFlag = "zero"
     save: Path | None = None
@@ -164,7 +164,7 @@ class Teach:
             mirrored=self.mirror,
             calibrate_at=self.calibrate_at,
             hands=HandOptions(self.gripper, self.wrist),
-        ).in_scene(read_scene(self.scene))
+        ).in_scene(taught_scene(self.scene, self.files))
         return _experiment(self.files, setup, self.json, self.save)
 
 

@@ -4,7 +4,7 @@ import contextlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 import tyro
 
@@ -17,17 +17,17 @@ from studio.engine.evaluate.grid import (
     COUNTS,
     LEARNERS,
     TRIALS,
+    checked_networks,
     evaluate_grid,
     networks,
     replays_of,
 )
 from studio.engine.evaluate.journal import Journal, header_of
 from studio.engine.evaluate.motion import Motion
-from studio.engine.evaluate.runs import Conditions
+from studio.engine.evaluate.runs import Conditions, checked_count
 from studio.engine.evaluate.subject import (
     Subject,
     is_model,
-    scene_of_recordings,
     subject_of_lesson,
     subject_of_model,
 )
@@ -39,15 +39,18 @@ from studio.engine.parallel import has_joblib, most_jobs
 from studio.engine.resources import samples_folder
 from studio.engine.scene import Scene
 from studio.engine.scene_file import read_scene
+from studio.engine.sweep import checked_neurons
 from studio.engine.teaching import LEARNERS as LEARNERS_ALONE
 from studio.engine.teaching import LearnerSettings, learn
 from studio.progress_bar import ProgressBar
+from studio.scene_option import taught_scene
 
 Models = Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="MODEL")]
 VariationName = Literal["block", "friction", "mass", "start", "noise", "latency"]
 MANY = 1000  # trials of one motion
 FEWER = 200  # of each demonstration beside it
 _USUAL = Variations()
+EVERY_VARIATION: tuple[VariationName, ...] = get_args(VariationName)
 
 
 @dataclass(frozen=True)
@@ -58,8 +61,8 @@ class Evaluate:
     """An exported model (JSON), a session (zip), or recordings to learn from; the shipped samples
     by default."""
     scene: str | None = None
-    """The scene: the name of one that ships, or a TOML file; by default that in which it was
-    taught."""
+    """The scene: the name of one that ships, or a TOML file; by default that of the session, or of
+    the first recording. A model's file knows none: push-down, unless this says another."""
     trials: int | None = None
     """Trials of the model, 1000 by default; of each of several networks 100."""
     replays: int = FEWER
@@ -73,7 +76,7 @@ class Evaluate:
     task needs, by default from 1 to 150."""
     learner: tuple[str, ...] = ()
     """Of recordings: rbf by default, newrb, field. For the picture also gcv and ols."""
-    only: tuple[VariationName, ...] = ()
+    only: tuple[VariationName, ...] = EVERY_VARIATION
     """Vary these alone."""
     block: float = 100 * _USUAL.block
     """Blocks stand up to so many cm off, in x and in y. Of this and all that follows, 0 is off."""
@@ -113,6 +116,7 @@ class Evaluate:
         return 0
 
     def _found(self) -> Found:
+        self._check()
         variations = Variations(
             block=self.block / 100,
             friction=self.friction / 100,
@@ -121,13 +125,13 @@ class Evaluate:
             noise=self.noise,
             latency=self.latency,
         )
-        variations = variations.only(self.only) if self.only else variations
+        variations = variations.only(self.only)
         session = self._session()
         conditions = Conditions(self._scene(session), variations, self.seed)
         jobs = most_jobs() if self.jobs is None else self.jobs
         if not has_joblib():
             log("one trial at a time; several at once need pip install 'teaching-studio[compare]'")
-        if len(self.neurons) > 1 or len(self.learner) > 1:
+        if self._is_grid():
             return self._many(conditions, jobs)
         subject = self._subject(conditions.scene, session)
         trials = MANY if self.trials is None else self.trials
@@ -138,6 +142,24 @@ class Evaluate:
                 subject.motion, subject.replays, conditions, trials, replayed, jobs, journal, bar
             )
         return shown_evaluation(found)
+
+    def _check(self) -> None:
+        """Raise StudioError for what is wrong whatever the files hold."""
+        if self.trials is not None:
+            checked_count("trials", self.trials)
+        checked_count("replays", self.replays, least=0)
+        if not self.only:
+            raise StudioError(f"--only: one variation or more of {', '.join(EVERY_VARIATION)}")
+        if self.neurons:
+            checked_neurons(self.neurons)
+        if self._is_grid():
+            checked_networks(self.learner)
+        else:
+            self._settings()
+
+    def _is_grid(self) -> bool:
+        """Tell whether several networks are asked for."""
+        return len(self.neurons) > 1 or len(self.learner) > 1
 
     def _session(self) -> Material | None:
         """Return what the given session holds; None where something else is given."""
@@ -154,10 +176,13 @@ class Evaluate:
             taught = session.taught
             scene = taught.scene if self.scene is None else read_scene(self.scene)
             return scene.taught_by(taught.arms)
-        if self.scene is None:
-            scene = scene_of_recordings((*self.model, *self.demonstrations))
-        else:
-            scene = read_scene(self.scene)
+        scene = taught_scene(self.scene, (*self.model, *self.demonstrations))
+        told = self.scene is not None or self.demonstrations
+        if not told and any(is_model(path) for path in self.model):
+            log(
+                f"a model's file does not know its scene: judged in {scene.name}; --scene says "
+                "another"
+            )
         return scene.taught_by(self._setup(scene).arms)
 
     def _many(self, conditions: Conditions, jobs: int) -> Found:

@@ -17,10 +17,8 @@ from studio.engine.export.files import ready_folder
 from studio.engine.export.material import material_of
 from studio.engine.export.session_reader import is_session, open_session
 from studio.engine.resources import samples_folder
-from studio.engine.scene import DEFAULT_SCENE
-from studio.engine.scene_file import read_scene
 from studio.engine.teaching import LearnerSettings, learn, reproduce
-from studio.scene_option import SceneFlag
+from studio.scene_option import TaughtSceneFlag, taught_scene
 
 Inputs = Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="RECORDING...")]
 KindName = Literal["csv", "npz", "mcap", "model", "html", "video", "replay", "zip"]
@@ -62,7 +60,7 @@ class Export:
     """Of skeleton files: sequence, or open to follow whoever is in sight."""
     mirror: bool = False
     """It was taught as in a mirror."""
-    scene: SceneFlag = DEFAULT_SCENE
+    scene: TaughtSceneFlag = None
     json: bool = False
     """Print one JSON object."""
 
@@ -102,7 +100,7 @@ class Export:
             return open_session(given[0])
         log(f"reading {', '.join(str(path) for path in given)}")
         setup = Setup(self.arm, self.mapping, self.gate, mirrored=self.mirror)
-        return material_of(given, setup.in_scene(read_scene(self.scene)))
+        return material_of(given, setup.in_scene(taught_scene(self.scene, given)))
 
     def _learned(self, material: Material, names: Sequence[KindName]) -> Material:
         """Return the material with a lesson, and what Baxter does alone, where that is needed."""

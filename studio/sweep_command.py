@@ -15,13 +15,11 @@ from studio.engine.errors import FileError, NothingTaughtError, StudioError
 from studio.engine.experiment import Setup, teach, why_nothing
 from studio.engine.learners import LEARNER_KINDS, kind_of, require
 from studio.engine.resources import samples_folder
-from studio.engine.scene import DEFAULT_SCENE
-from studio.engine.scene_file import read_scene
 from studio.engine.sweep import DEFAULT_LEARNERS, PAPER_NEURONS, checked_neurons, sweep
 from studio.engine.sweep import Sweep as SweepTable
 from studio.engine.sweep_page import sweep_page
 from studio.engine.sweep_report import sweep_as_json, sweep_as_text
-from studio.scene_option import SceneFlag
+from studio.scene_option import TaughtSceneFlag, taught_scene
 
 Recordings = Annotated[
     tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="RECORDING...")
@@ -51,7 +49,7 @@ class Sweep:
     """Of skeleton files: sequence, or open to follow whoever is in sight."""
     interpolation: Literal["even", "random"] = "even"
     """How demonstrations are resampled to 142: at even stamps, or at random ones (the paper)."""
-    scene: SceneFlag = DEFAULT_SCENE
+    scene: TaughtSceneFlag = None
     jobs: int = 1
     """Fits at once. Times are then less comparable."""
     html: Path | None = None
@@ -63,14 +61,14 @@ class Sweep:
         """Measure, print, and write the page."""
         networks, compared = self._learners()
         checked_neurons(self.neurons)
+        given = self.recordings or tuple(sorted(samples_folder().glob("*.mcap")))
         setup = Setup(
             self.arm,
             self.mapping,
             self.gate,
             interpolation=self.interpolation,
             mirrored=self.mirror,
-        ).in_scene(read_scene(self.scene))
-        given = self.recordings or tuple(sorted(samples_folder().glob("*.mcap")))
+        ).in_scene(taught_scene(self.scene, given))
         with only_ours_on_stdout():
             taught = _taught(given, setup)
             log(f"fitting {', '.join(networks)}")

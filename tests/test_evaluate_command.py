@@ -133,6 +133,14 @@ def test_another_setting_under_the_same_folder_is_refused(swinging, tmp_path, ca
     assert "going on after 2 trials" in capsys.readouterr().err
 
 
+def test_a_models_scene_is_not_known_and_that_is_said(tmp_path, swinging, capsys) -> None:
+    words = "a model's file does not know its scene: judged in push-down; --scene says another"
+    assert run(swinging[0], "--trials", 1, "--jobs", 1) == 0
+    assert words in capsys.readouterr().err
+    assert run(*swinging, "--trials", 1, "--jobs", 1) == 0
+    assert words not in capsys.readouterr().err
+
+
 def test_recordings_are_learned_and_stand_beside_what_they_taught(tmp_path, capsys) -> None:
     given = (*SAMPLES, "--trials", 2, "--replays", 1, "--jobs", 1, "--only", "mass")
     assert run(*given, "--neurons", 12, "--json", "--out", tmp_path) == 0
@@ -169,7 +177,12 @@ def test_without_joblib_it_says_how_it_would_be_faster(swinging, capsys, monkeyp
         (("MODEL", "--arm", "both"), "a network of 4 joints; both arms"),
         (("MODEL", "--trials", 0), "trials: 1 to"),
         (("MODEL", "--jobs", 0), "jobs: how many at once"),
-        (("MODEL", "--noise", 90), "noise: a variation of 0 to 10"),
+        (("MODEL", "--noise", 90), "noise: a variation of 0 to 10 degrees"),
+        (("MODEL", "--block", 25), "block: a variation of 0 to 20 cm is possible, not 25"),
+        (("MODEL", "--only"), "--only: one variation or more of block"),
+        (("nowhere.mcap", "--replays", -1), "replays: 0 to"),
+        (("nowhere.mcap", "--learner", "spline"), "--learner: one of rbf"),
+        (("nowhere.mcap", "--learner", "spline", "rbf"), "spline has no neurons"),
         (("MODEL", "--scene", "nowhere"), "there is no scene 'nowhere'"),
         ((SAMPLES[0], "--demonstrations", SAMPLES[1]), "beside a model's file"),
         ((SAMPLES[0], "--learner", "spline"), "--learner: one of rbf"),

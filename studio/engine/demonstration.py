@@ -167,10 +167,12 @@ class DemonstrationSet:
                     f"mapping, {first.name} with {in_words(first.arms)} and the {first.mapping} "
                     "mapping: learn from one kind at a time"
                 )
-            if other.scene.name != first.scene.name:
+            if other.scene.as_told != first.scene.as_told:
+                alike = other.scene.name == first.scene.name
+                where = "another of that name" if alike else first.scene.name
                 raise StudioError(
                     f"{other.name} was taught in the scene {other.scene.name}, {first.name} in "
-                    f"{first.scene.name}: learn from one scene at a time"
+                    f"{where}: learn from one scene at a time"
                 )
         rng = np.random.default_rng(seed)
         rows = np.stack([resample(each, interpolation, rng) for each in demonstrations])

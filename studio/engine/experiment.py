@@ -132,6 +132,20 @@ def run_experiment(
     return Experiment(setup, tuple(teachers.files), "", lesson, reproduction, replays)
 
 
+def scene_of_recordings(paths: Sequence[Path]) -> Scene:
+    """Return the scene in which files were taught, by the first recording among them.
+
+    The usual one where there is no recording.
+
+    Raises
+    ------
+    FileError
+        Where a recording cannot be read.
+    """
+    first = next((path for path in paths if is_recording(path)), None)
+    return USUAL if first is None else read_recording(first).info.scene
+
+
 def teach(
     inputs: Sequence[Path | SkeletonRecording],
     setup: Setup,
@@ -188,14 +202,14 @@ def _taught(given: Path | SkeletonRecording, setup: Setup) -> tuple[Recording, F
 
 def _made_so(info: RecordingInfo, setup: Setup) -> bool:
     """Tell whether a recording was made the way that is asked for now."""
-    made = (info.arms, info.mapping, info.gate, info.mirrored, info.hands, info.scene.name)
+    made = (info.arms, info.mapping, info.gate, info.mirrored, info.hands, info.scene.as_told)
     asked = (
         setup.arms,
         setup.mapping,
         setup.gate,
         setup.mirrored,
         setup.hands,
-        setup.scene.name,
+        setup.scene.as_told,
     )
     return made == asked and setup.calibrate_at is None
 

@@ -227,7 +227,10 @@ class Learning:
         if self.lesson is not None and self._explained is not self.lesson:
             self._work.start(Explaining(self.lesson))
         elif self._material and self._unchanged > PATIENCE and curve.missing and not curve.note:
-            taught = self._listed.taught(choices.arms, choices.mapping, choices.scene.name)
+            try:
+                taught = self._listed.taught(choices.arms, choices.mapping, choices.scene.name)
+            except StudioError:
+                return  # two scenes of one name: who asks to learn from them is told
             self._work.start(ErrorCurve(taught, curve.learner, curve.missing))
 
     def _hear(self, report: Report) -> str:

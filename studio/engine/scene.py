@@ -66,6 +66,11 @@ class Scene:
         return self if arms == self.arms else replace(self, arms=arms)
 
     @property
+    def as_told(self) -> "Scene":
+        """The scene for the arms that its file tells it for, so that two can be compared."""
+        return self.taught_by("both" if self.both_arms else "left")
+
+    @property
     def task_blocks(self) -> tuple[int, ...]:
         """The numbers of the blocks that the task is about, in the order in which it names them."""
         names = [block.name for block in self.blocks]

@@ -132,12 +132,16 @@ def _read(path: Path) -> Scene:
         size = path.stat().st_size
         if size > LARGEST_FILE:
             raise FileError(f"{path}: {size:,} bytes; scenes up to {LARGEST_FILE:,} are read")
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8-sig")  # some editors put a mark in front
     except OSError as error:
         raise FileError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise FileError(f"{path}: expected text in UTF-8; save it as that") from error
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except ValueError as error:  # a NUL in the path
+        raise FileError(f"{str(path)!r}: cannot be read: {error}") from error
+    try:
+        table = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # also of whole numbers with too many digits
         raise FileError(f"{path}: expected TOML (docs/scenes.md): {error}") from error
     return scene_of(table, str(path), path.stem)
 

@@ -39,7 +39,7 @@ class Table:
         """Return a text that is not empty."""
         value = self._take(key, "a text", default)
         if not isinstance(value, str) or not value.strip():
-            raise self.wrong(key, f"expected a text in quotes, found {value!r}")
+            raise self.wrong(key, f"expected a text in quotes, found {_shown(value)}")
         return value
 
     def one_of(self, key: str, choices: Iterable[str], default: str | None = None) -> str:
@@ -47,15 +47,17 @@ class Table:
         known = tuple(choices)
         value = self._take(key, f"one of {', '.join(known)}", default)
         if value not in known:
-            near = _nearest(str(value), known)
-            raise self.wrong(key, f"expected one of {', '.join(known)}, found {value!r}{near}")
+            near = _nearest(value, known) if isinstance(value, str) else ""
+            raise self.wrong(
+                key, f"expected one of {', '.join(known)}, found {_shown(value)}{near}"
+            )
         return str(value)
 
     def flag(self, key: str, default: bool | None = None) -> bool:
         """Return true or false."""
         value = self._take(key, "true or false", default)
         if not isinstance(value, bool):
-            raise self.wrong(key, f"expected true or false, without quotes, found {value!r}")
+            raise self.wrong(key, f"expected true or false, without quotes, found {_shown(value)}")
         return value
 
     def number(self, key: str, within: Range) -> float:
@@ -66,14 +68,14 @@ class Table:
         """Return so many numbers, each within a range."""
         value = self._take(key, f"{count} numbers")
         if not isinstance(value, list) or len(value) != count:
-            raise self.wrong(key, f"expected {count} numbers in brackets, found {value!r}")
+            raise self.wrong(key, f"expected {count} numbers in brackets, found {_shown(value)}")
         return tuple(self._number(f"{key}[{i}]", each, within) for i, each in enumerate(value))
 
     def table(self, key: str) -> "Table":
         """Return the table of that name."""
         value = self._take(key, f"a table [{key}]")
         if not isinstance(value, dict):
-            raise self.wrong(key, f"expected a table [{key}], found {value!r}")
+            raise self.wrong(key, f"expected a table [{key}], found {_shown(value)}")
         return Table(self.file, self._at(key), value)
 
     def tables(self, key: str, needed: bool = False) -> list["Table"]:
@@ -82,7 +84,7 @@ class Table:
         value = self._take(key, f"one table [[{key}]] or more", default)
         if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
             raise self.wrong(
-                key, f"expected tables [[{key}]], in two brackets, found {value!r:.60}"
+                key, f"expected tables [[{key}]], in two brackets, found {_shown(value)}"
             )
         if needed and not value:
             raise self.wrong(key, f"expected one table [[{key}]] or more, found none")
@@ -121,10 +123,9 @@ class Table:
         return default
 
     def _number(self, key: str, value: object, within: Range) -> float:
-        is_number = isinstance(value, int | float) and not isinstance(value, bool)
-        if not is_number or not math.isfinite(float(value)):  # type: ignore[arg-type]
-            raise self.wrong(key, f"expected a number, {within}, found {value!r}")
-        number = float(value)  # type: ignore[arg-type]
+        number = _as_float(value)
+        if not math.isfinite(number):
+            raise self.wrong(key, f"expected a number, {within}, found {_shown(value)}")
         if not within.least <= number <= within.most:
             nearest = min(max(number, within.least), within.most)
             raise self.wrong(
@@ -134,6 +135,24 @@ class Table:
 
     def _at(self, key: str) -> str:
         return f"{self.place}.{key}" if self.place else key
+
+
+def _as_float(value: object) -> float:
+    """Return a number; NaN for what is none, or a whole one beyond all floats."""
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return math.nan
+    try:
+        return float(value)
+    except OverflowError:
+        return math.nan
+
+
+def _shown(value: object) -> str:
+    """Return a value as it may stand in a message: not at any length."""
+    try:
+        return f"{value!r:.80}"
+    except ValueError:  # Python writes out no whole number of more than some thousand digits
+        return "a number of thousands of digits"
 
 
 def _nearest(name: str, known: Iterable[str]) -> str:

@@ -94,12 +94,23 @@ def broken(tmp_path: Path, *changes: tuple[str, str]) -> str:
         ("[desk]", "[desks]", r"desk: expected a table \[desk\], found nothing"),
         ('words = "Push', 'words = "" #', "words: expected a text"),
         ("[desk]", "[desk", "expected TOML"),
+        ("mass = 0.3", f"mass = 1{'0' * 400}", "block 1.mass: expected a number.*found 100"),
+        ("mass = 0.3", f"mass = 1{'0' * 5000}", "expected TOML"),
+        ("mass = 0.3", f"mass = 0x1{'0' * 5000}", "block 1.mass: .*thousands of digits"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_place_and_the_nearest_that_is_right(
     tmp_path: Path, before: str, after: str, told: str
 ) -> None:
     assert re.match(told, broken(tmp_path, (before, after)))
+
+
+def test_a_byte_order_mark_is_taken_and_a_path_that_is_none_refused(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(EXAMPLE, encoding="utf-8-sig")
+    assert read_scene(path).words == "Push the box onto the mat."
+    with pytest.raises(FileError, match=r"'x\\x00\.toml': cannot be read"):
+        read_scene("x\0.toml")
 
 
 def test_blocks_stand_beside_each_other_or_on_each_other(tmp_path: Path) -> None:

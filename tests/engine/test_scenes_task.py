@@ -83,6 +83,18 @@ def test_a_recording_of_another_scene_is_followed_anew() -> None:
         DemonstrationSet.of([*as_it_is.demonstrations, *anew.demonstrations])
 
 
+def test_another_scene_of_the_same_name_is_another_scene() -> None:
+    (sample, *_) = sorted(samples_folder().glob("*.mcap"))
+    usual = Scene()
+    other = replace(usual, desk=replace(usual.desk, friction=0.5))
+    as_it_is, anew = teach([sample], Setup()), teach([sample], Setup(scene=other))
+    assert "followed anew" in anew.files[0].format
+    with pytest.raises(StudioError, match=r"push-down, .* in another of that name: learn"):
+        DemonstrationSet.of([*as_it_is.demonstrations, *anew.demonstrations])
+    right = teach([sample], Setup(scene=usual.taught_by("right")))
+    assert "anew" not in right.files[0].format  # it is told for the left arm in any case
+
+
 def test_a_setup_takes_arms_and_hands_from_its_scene() -> None:
     assert Setup().in_scene(read_scene("both-arms")).arms == "both"
     assert Setup("right").in_scene(read_scene("push-into-zone")).arms == "right"

@@ -1,8 +1,8 @@
 """How many neurons does the *task* need? Success against numbers of neurons, learner by learner.
 
 Every network meets the same trials as all others and as each demonstration's own replay. The
-answer is the smallest number of neurons whose 95 % interval reaches the demonstrations' own rate:
-fewer are worse, beyond what chance explains.
+answer is the smallest number of neurons that ever do the task and whose 95 % interval reaches the
+demonstrations' own rate: fewer are worse, beyond what chance explains.
 """
 
 from collections.abc import Sequence
@@ -66,14 +66,21 @@ class Grid:
         return tuple(cell for cell in self.cells if cell.network.learner == learner)
 
     def needed(self, learner: str) -> Cell | None:
-        """Return the cell with the fewest neurons that are enough; None where none is."""
+        """Return the cell with the fewest neurons that are enough; None where none is.
+
+        None, too, where no replay does the task: any network would be enough.
+        """
         rate, _, _ = pooled(self.replays)
-        return next((cell for cell in self.of(learner) if cell.tested.rate.high >= rate), None)
+        if rate == 0.0:
+            return None
+        return next((cell for cell in self.of(learner) if _reaches(cell, rate)), None)
 
     def answer(self, learner: str) -> str:
         """Return in words how many neurons the task needs."""
         found, cells = self.needed(learner), self.of(learner)
         rate, _, _ = pooled(self.replays)
+        if rate == 0.0:
+            return "no demonstration's own replay does the task, so there is nothing to reach"
         if found is None:
             most = cells[-1].network.neurons
             return (
@@ -81,9 +88,15 @@ class Grid:
                 f"{100 * rate:.3g} %"
             )
         count = found.network.neurons
+        reached = found.tested.rate
+        if reached.value < rate:  # so that its interval alone reaches it
+            shown = f"{'s are' if count > 1 else ' is'} not shown to do worse with "
+            shown += f"{reached.trials} trials"
+        else:
+            shown = f"{'s do' if count > 1 else ' does'} the task"
         words = (
-            f"{count} neuron{'s do' if count > 1 else ' does'} the task: "
-            f"{found.tested.rate.words}, beside the demonstrations' own {100 * rate:.3g} %"
+            f"{count} neuron{shown}: {reached.words}, beside the demonstrations' own "
+            f"{100 * rate:.3g} %"
         )
         ratio = found.network.floor_ratio
         if ratio is not None:
@@ -91,9 +104,14 @@ class Grid:
         worse = [
             str(cell.network.neurons)
             for cell in cells
-            if cell.network.neurons > count and cell.tested.rate.high < rate
+            if cell.network.neurons > count and not _reaches(cell, rate)
         ]
         return f"{words}; {', '.join(worse)} do worse again" if worse else words
+
+
+def _reaches(cell: Cell, rate: float) -> bool:
+    """Tell whether a network did the task at all, and may do it as often as ``rate``."""
+    return cell.tested.rate.successes > 0 and cell.tested.rate.high >= rate
 
 
 def networks(
@@ -110,15 +128,21 @@ def networks(
     StudioError
         Where a learner is unknown or has no neurons, or a number of neurons is impossible.
     """
-    counts, names = checked_neurons(neurons), tuple(dict.fromkeys(learners))
+    counts, names = checked_neurons(neurons), checked_networks(learners)
+    tasks = [(name, count, taught, scene) for name in names for count in counts]
+    return tuple(run_all(_network, tasks, jobs))
+
+
+def checked_networks(learners: Sequence[str]) -> tuple[str, ...]:
+    """Return learners, each once; raise StudioError where one is unknown or has no neurons."""
+    names = tuple(dict.fromkeys(learners))
     for name in names:
         kind = kind_of(name)
         if not kind.network:
             able = ", ".join(key for key, each in LEARNER_KINDS.items() if each.network)
             raise StudioError(f"{name} has no neurons to count; choose of {able}")
         require(kind)
-    tasks = [(name, count, taught, scene) for name in names for count in counts]
-    return tuple(run_all(_network, tasks, jobs))
+    return names
 
 
 def replays_of(taught: DemonstrationSet, scene: Scene) -> tuple[Motion, ...]:

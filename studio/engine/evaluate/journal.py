@@ -8,11 +8,12 @@
 The first line says what the trials are of. A folder with another first line is refused, so that
 no table is ever made of two things; how many trials are asked for is not in it, for more of the
 same go on where the others ended. A process that is killed leaves at most a torn last line, which
-is dropped: that trial is done once more, with the same outcome.
+is dropped: that trial is done once more, with the same outcome. One process at a time has the file.
 """
 
 import hashlib
 import json
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from importlib.metadata import version
@@ -28,6 +29,9 @@ from studio.engine.evaluate.trial import Outcome
 from studio.engine.evaluate.variation import Variations, widths_of
 from studio.engine.scene import Scene
 from studio.engine.sources.strict_json import as_object, parse_json
+
+if sys.platform != "win32":
+    import fcntl
 
 FILE = "trials.jsonl"
 FORMAT, SCHEMA = "teaching-studio evaluation", 1
@@ -93,13 +97,17 @@ class Journal:
         self._header = dict(header)
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            whole = self._read()
             self._file: BinaryIO = self.path.open("ab", buffering=0)
-            self._file.truncate(whole)  # a torn last line
-            if whole == 0:
-                self._write(self._header)
         except OSError as error:
             raise FileError(f"{self.path}: cannot be used: {error.strerror}") from error
+        try:
+            self._begin()
+        except OSError as error:
+            self._file.close()
+            raise FileError(f"{self.path}: cannot be used: {error.strerror}") from error
+        except FileError:
+            self._file.close()
+            raise
 
     def add(self, key: Key, outcome: Outcome) -> None:
         """Keep a trial that is over; a kill from here on loses nothing of it.
@@ -126,13 +134,26 @@ class Journal:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def _begin(self) -> None:
+        """Take the file for this process alone, and take in what it holds."""
+        try:
+            _claim(self._file)
+        except BlockingIOError as error:
+            raise FileError(
+                f"{self.path}: another evaluation is at work there; wait for its end, or choose "
+                "another folder for --out"
+            ) from error
+        whole = self._read()
+        if whole < self.path.stat().st_size:  # a torn last line
+            self._file.truncate(whole)
+        if whole == 0:
+            self._write(self._header)
+
     def _write(self, line: Mapping[str, Any]) -> None:
         self._file.write((json.dumps(line, allow_nan=False) + "\n").encode())
 
     def _read(self) -> int:
         """Take in what is there, and return how many bytes of it are whole lines."""
-        if not self.path.exists():
-            return 0
         if self.path.stat().st_size > _LARGEST:
             raise FileError(f"{self.path}: larger than {_LARGEST:,} bytes; choose another folder")
         content = self.path.read_bytes()
@@ -161,6 +182,12 @@ class Journal:
 
 
 _CURE = "choose another folder for --out, or ask for the same as before"
+
+
+def _claim(file: BinaryIO) -> None:
+    """Keep others out until it is closed, or raise BlockingIOError; Windows has no such locks."""
+    if sys.platform != "win32":
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def _trial(table: Mapping[str, object]) -> tuple[Key, Outcome]:

@@ -9,7 +9,7 @@ from studio.engine.evaluate.interval import Rate
 from studio.engine.evaluate.runs import Conditions
 from studio.engine.evaluate.variation import widths_of
 
-WORST = 2  # variations that are told in words: those whose parts differ most
+WORST = 2  # variations that are told in words: those that differ most
 
 
 def evaluation_as_json(found: Evaluation) -> dict[str, Any]:
@@ -69,8 +69,14 @@ def grid_as_text(grid: Grid) -> str:
 
 
 def hurting_in_words(found: Evaluation) -> list[str]:
-    """Return which variations make the largest difference, and which one."""
-    ranked = sorted(found.parts.items(), key=lambda each: -_range(each[1]))[:WORST]
+    """Return which variations make the largest difference, beyond chance, and which one.
+
+    That is, where the intervals of the parts with the lowest and the highest rate do not overlap.
+    """
+    shown = [(name, parts) for name, parts in found.parts.items() if _stands_out(parts)]
+    if found.parts and not shown:
+        return [f"No variation stands out in {len(found.tested.outcomes)} trials."]
+    ranked = sorted(shown, key=lambda each: -_range(each[1]))[:WORST]
     return [
         f"By {name}: "
         + ", ".join(
@@ -79,7 +85,6 @@ def hurting_in_words(found: Evaluation) -> list[str]:
         )
         + "."
         for name, parts in ranked
-        if _range(parts) > 0.0
     ]
 
 
@@ -120,6 +125,11 @@ def _named(tested: Tested) -> str:
 def _range(parts: Sequence[Part]) -> float:
     rates = [part.rate.value for part in parts]
     return max(rates) - min(rates)
+
+
+def _stands_out(parts: Sequence[Part]) -> bool:
+    rates = sorted((part.rate for part in parts), key=lambda rate: rate.value)
+    return rates[0].high < rates[-1].low
 
 
 def _conditions(conditions: Conditions) -> dict[str, Any]:

@@ -1,6 +1,5 @@
 """What is evaluated: a stored model, a session's lesson, or what recordings teach."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,13 +7,12 @@ import numpy as np
 
 from studio.engine.arms import Arms, in_words, learned_joints
 from studio.engine.demonstration import DemonstrationSet
-from studio.engine.errors import FileError
+from studio.engine.errors import FileError, StudioError
 from studio.engine.evaluate.grid import replays_of
 from studio.engine.evaluate.motion import Motion, motion_of
-from studio.engine.mcap_file import is_recording, read_recording
 from studio.engine.planning import Trajectory
 from studio.engine.retarget import Mapping
-from studio.engine.scene import USUAL, Scene
+from studio.engine.scene import Scene
 from studio.engine.teaching import Lesson, model_as_trajectory
 from studio.rbf import NewrbRegressor, RBFRegressor, SavedModel, load_model
 from studio.rbf.storage import FORMAT
@@ -38,18 +36,6 @@ def is_model(path: Path) -> bool:
             return _MARK in file.read(_BEGINNING)
     except (OSError, ValueError):
         return False
-
-
-def scene_of_recordings(paths: Sequence[Path]) -> Scene:
-    """Return the scene in which files were taught, by the first recording among them.
-
-    Raises
-    ------
-    FileError
-        Where a recording cannot be read.
-    """
-    first = next((path for path in paths if is_recording(path)), None)
-    return USUAL if first is None else read_recording(first).info.scene
 
 
 def subject_of_lesson(lesson: Lesson, scene: Scene) -> Subject:
@@ -82,6 +68,8 @@ def subject_of_model(
     ------
     FileError
         Where it cannot be read, is no network of time, or one of another number of joints.
+    StudioError
+        Where the scene takes fingers, and there are no demonstrations to say what these do.
     """
     try:
         saved = load_model(path)
@@ -97,6 +85,8 @@ def subject_of_model(
             f"has {len(joints)}: say how it was taught by --arm and --mapping"
         )
     hands = None if taught is None else taught.hands
+    if scene.gripper and hands is None:
+        raise StudioError("give --demonstrations: a model's file says nothing of the hands")
     motion = motion_of("model", trajectory, saved.duration, arms, mapping, hands, scene)
     return Subject(motion, () if taught is None else replays_of(taught, scene))
 

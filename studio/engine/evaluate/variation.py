@@ -30,6 +30,15 @@ from studio.engine.skeleton import FloatArray
 
 JITTER = 0.2  # of the constant offset's standard deviation: that of a tick's
 _DRAWS = ("block", "friction", "mass", "start", "noise", "latency")
+# Their units as people are told, and how many of these one of ours is.
+_UNITS = {
+    "block": ("cm", 100.0),
+    "friction": ("%", 100.0),
+    "mass": ("%", 100.0),
+    "start": ("degrees", 1.0),
+    "noise": ("degrees", 1.0),
+    "latency": ("ticks", 1.0),
+}
 _MOST = {"block": 0.2, "friction": 0.95, "mass": 0.95, "start": 30.0, "noise": 10.0, "latency": 30}
 
 
@@ -54,7 +63,11 @@ class Variations:
         for name, most in _MOST.items():
             width = getattr(self, name)
             if not 0.0 <= width <= most:
-                raise StudioError(f"{name}: a variation of 0 to {most:g} is possible, not {width}")
+                unit, scale = _UNITS[name]
+                raise StudioError(
+                    f"{name}: a variation of 0 to {scale * most:g} {unit} is possible, not "
+                    f"{scale * width:g}"
+                )
 
     def only(self, names: tuple[str, ...]) -> "Variations":
         """Return these, all others than the named ones switched off.

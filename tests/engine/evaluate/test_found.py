@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -64,9 +65,19 @@ def test_where_no_trial_differs_no_test_is_quoted() -> None:
 
 
 def test_what_hurts_most_comes_first() -> None:
-    lines = hurting_in_words(evaluation())
-    assert len(lines) == 2
+    usual = evaluation()
+    drawn = [usual.conditions.variation(usual.tested.motion, i).measures for i in range(60)]
+    pattern = "".join("+" if each["mass [%]"] < 100.0 else "-" for each in drawn)
+    lines = hurting_in_words(replace(usual, tested=made_up("model", pattern)))
+    assert lines[0].startswith("By mass [%]: 100 % from ")
+    assert len(lines) <= 2
     assert all(re.match(r"By .*: [\d.]+ % from ", line) for line in lines)
+
+
+def test_what_chance_explains_is_not_said_to_hurt() -> None:
+    found = evaluation()
+    assert len({part.rate.value for parts in found.parts.values() for part in parts}) > 1
+    assert hurting_in_words(found) == ["No variation stands out in 12 trials."]
 
 
 def test_the_picture_is_svg_with_a_line_a_learner_and_the_band() -> None:

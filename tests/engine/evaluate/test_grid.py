@@ -1,14 +1,23 @@
 """How many neurons the task needs: the answer, and the networks that it is about."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from studio.engine.errors import StudioError
 from studio.engine.evaluate.evaluation import pooled
-from studio.engine.evaluate.grid import COUNTS, LEARNERS, evaluate_grid, networks, replays_of
+from studio.engine.evaluate.grid import (
+    COUNTS,
+    LEARNERS,
+    Grid,
+    evaluate_grid,
+    networks,
+    replays_of,
+)
 from studio.engine.scene import Scene
 from studio.engine.teaching import LearnerSettings, learn, model_as_trajectory
-from tests.engine.evaluate.made_up import grid
+from tests.engine.evaluate.made_up import grid, made_up
 from tests.engine.evaluate.swings import conditions, swing
 from tests.engine.sweeps import samples
 
@@ -37,6 +46,30 @@ def test_none_may_be_enough() -> None:
     assert found.answer("newrb") == (
         "up to 4 neurons are not enough: none reaches the demonstrations' own 95 %"
     )
+
+
+def test_a_network_that_never_does_the_task_is_not_said_to_do_it() -> None:
+    replays = (made_up("demonstration 1", "++---"),)
+    cells = grid(rbf="0 20").cells
+    few = [made_up("rbf 1", "-----"), made_up("rbf 2", "+++++")]
+    assert few[0].rate.high > replays[0].rate.value  # of 5 trials an interval is that wide
+    pairs = zip(cells, few, strict=True)
+    found = Grid(conditions(), tuple(replace(cell, tested=one) for cell, one in pairs), replays)
+    assert found.needed("rbf").network.neurons == 2
+
+
+def test_where_no_replay_does_the_task_there_is_nothing_to_reach() -> None:
+    found = replace(grid(rbf="0 20"), replays=(made_up("demonstration 1", "----"),))
+    assert found.needed("rbf") is None
+    assert found.answer("rbf") == (
+        "no demonstration's own replay does the task, so there is nothing to reach"
+    )
+
+
+def test_a_network_whose_interval_alone_reaches_the_rate_is_not_said_to_do_as_well() -> None:
+    words = grid(rbf="0 18").answer("rbf")
+    assert words.startswith("2 neurons are not shown to do worse with 20 trials: 90 % (")
+    assert grid(rbf="18").answer("rbf").startswith("1 neuron is not shown to do worse with 20")
 
 
 def test_networks_are_those_that_are_learned_elsewhere() -> None:

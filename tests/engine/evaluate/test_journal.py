@@ -94,6 +94,17 @@ def test_a_line_that_is_no_trial_is_named(tmp_path) -> None:
         Journal(tmp_path, header())
 
 
+def test_one_evaluation_at_a_time_has_the_file(tmp_path) -> None:
+    content = kept(tmp_path, [DONE])
+    with Journal(tmp_path, header()) as journal:
+        with pytest.raises(FileError, match=f"{FILE}: another evaluation is at work there; wait"):
+            Journal(tmp_path, header())
+        journal.add(("swing", 1), NOT)
+    assert (tmp_path / FILE).read_bytes().startswith(content)
+    with Journal(tmp_path, header()) as journal:
+        assert journal.known == {("swing", 0): DONE, ("swing", 1): NOT}
+
+
 def test_a_folder_that_cannot_be_used_is_named(tmp_path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(FileError, match=r"file.*: cannot be used"):

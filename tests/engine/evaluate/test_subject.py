@@ -5,11 +5,12 @@ import json
 import numpy as np
 import pytest
 
-from studio.engine.errors import FileError
+from studio.engine.errors import FileError, StudioError
 from studio.engine.evaluate.subject import is_model, subject_of_lesson, subject_of_model
 from studio.engine.export.model import write_model
 from studio.engine.resources import samples_folder
 from studio.engine.scene import Scene
+from studio.engine.scene_file import read_scene
 from studio.rbf import RBFRegressor, save_model
 from tests.engine.lessons_at_hand import lesson
 
@@ -24,6 +25,13 @@ def test_a_stored_model_is_the_lesson_that_it_was_to_the_bit(tmp_path) -> None:
     assert [each.name for each in stored.replays] == [each.name for each in kept.replays]
     assert np.array_equal(stored.replays[1].sent, kept.replays[1].sent)
     assert subject_of_model(path, "left", "exact", Scene()).replays == ()
+
+
+def test_a_model_in_a_scene_that_takes_fingers_needs_demonstrations(tmp_path) -> None:
+    path = tmp_path / "model.json"
+    write_model(path, lesson())
+    with pytest.raises(StudioError, match="give --demonstrations: a model's file says nothing of"):
+        subject_of_model(path, "left", "exact", read_scene("pick-and-place"))
 
 
 def test_other_files_are_no_models(tmp_path) -> None:
