@@ -209,6 +209,11 @@ class Watched(Session):
         finally:
             self._kept.may_go(self._collection.status().goes_too)
 
+    def tick(self) -> Snapshot:
+        now = super().tick()  # a take that was recorded again replaces another one in its tick
+        self._kept.may_go(now.collection.goes_too)
+        return now
+
 
 @dataclass
 class Kept:

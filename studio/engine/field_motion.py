@@ -10,6 +10,7 @@ fields take from the demonstrations' mean start, at the time asked for.
 """
 
 import math
+import warnings
 from collections.abc import Sequence
 
 import numpy as np
@@ -38,9 +39,12 @@ class PushAndReturn:
         taught = split_where_time_restarts(X, Y)
         legs = legs_of(taught)
         try:
-            self.fields = tuple(
-                StableField(n_translations=self.neurons, bound=self.bound).fit(leg) for leg in legs
-            )
+            with warnings.catch_warnings():  # how far it misses is in the remark
+                warnings.simplefilter("ignore", UserWarning)
+                self.fields = tuple(
+                    StableField(n_translations=self.neurons, bound=self.bound).fit(leg)
+                    for leg in legs
+                )
         except ValueError as error:
             cure = "leave out the demonstration that differs from the others, or take rbf"
             raise StudioError(f"field: {error}; {cure}") from error
