@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from studio.engine import commands
 from studio.engine.pace import Pace
 from studio.engine.resources import samples_folder
 from studio.engine.snapshot import Mode
@@ -74,3 +75,30 @@ def test_what_is_lost_is_noticed(tmp_path: Path) -> None:
     assert len(lost) == 2
     assert any("1.mcap" in words for words in lost)
     assert "2.mcap: gone" in lost
+
+
+def test_a_take_that_replaces_another_is_not_taken_for_a_loss(tmp_path: Path) -> None:
+    """The old file goes with the next deletion, by a tick and not by a command."""
+    folder, safe = tmp_path / "recordings", tmp_path / "safe"
+    folder.mkdir()
+    safe.mkdir()
+    kept = Kept(folder, safe)
+    session = Watched(kept)
+
+    def ask(*orders: commands.Command) -> None:
+        for order in orders:
+            session.post(order)
+        kept.look(session.tick())
+        kept.look(session.tick())
+        while session.snapshot.mode is not Mode.IDLE:
+            kept.look(session.tick())
+        kept.look(session.tick())
+
+    for again in (commands.Record(), commands.Record(), commands.RecordAgain(1)):
+        ask(commands.UseDemonstrator(), again)
+    first = sorted(folder.iterdir())[0]
+    ask(commands.Remove(session.snapshot.entries[-1].number))
+    session.close()
+    assert not first.exists()
+    assert kept.made == 3
+    assert kept.lost() == []

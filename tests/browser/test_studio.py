@@ -84,9 +84,9 @@ def test_a_reload_brings_back_where_one_was(studio: Studio) -> None:
     studio.loop.session.post(commands.PlayDemonstration())
     studio.waits(lambda now: now.mode is Mode.PLAYING)
     studio.page.keyboard.press("Space")
-    studio.waits(lambda now: not now.compare.timeline.is_playing)
+    paused = studio.waits(lambda now: not now.compare.timeline.is_playing).time
     studio.page.keyboard.press("ArrowRight")
-    at = studio.waits(lambda now: now.time > 0.0).time
+    at = studio.waits(lambda now: now.time > paused).time
     studio.open_step("3 Learn")
     neurons = studio.page.get_by_label("Neurons", exact=True)
     neurons.fill("17")
