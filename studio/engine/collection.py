@@ -20,7 +20,7 @@ from studio.engine.commands import (
     UseFile,
 )
 from studio.engine.entry import Entry
-from studio.engine.errors import FileError, StudioError
+from studio.engine.errors import FileError, NothingTaughtError, StudioError
 from studio.engine.export.session_reader import is_session
 from studio.engine.listed import Listed
 from studio.engine.mcap_log import is_mcap
@@ -134,7 +134,7 @@ class Collection:
             raise StudioError(f"{name} is on the list already")
         takes, problem = takes_of(recording, name.removesuffix(".mcap"), path)
         if not takes:
-            raise StudioError(why_nothing_armed(recording, name))
+            raise NothingTaughtError(why_nothing_armed(recording, name))
         self._trash.spare(file)
         added = self.listed.add(takes, file)
         if replaces is not None and any(e.number == replaces for e in self.listed.entries):

@@ -137,7 +137,7 @@ class Session:
         if not self._activity.step():
             self._finish()
         elif isinstance(self._activity, Follow) and self._activity.take_is_over:
-            self._follow(self._taking.next_path(), Plan(repeats=True))
+            self._follow(self._taking.next_path(), Plan(repeats=True, goes_on=True))
         elif isinstance(self._activity, Show) and self._activity.is_through:
             self._say(self._comparing.judge(self._activity.film, self._learning))
 

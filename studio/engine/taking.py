@@ -6,7 +6,7 @@ from pathlib import Path
 from studio.engine.activity import Activity, Follow
 from studio.engine.collection import Collection
 from studio.engine.commands import BeginTake, EndTake, RecordAgain
-from studio.engine.errors import StudioError
+from studio.engine.errors import NothingTaughtError, StudioError
 from studio.engine.tape import LONGEST_RECORDING, NO_PLAN, Plan, Tape, next_recording_path
 
 
@@ -48,7 +48,7 @@ class Taking:
         Raises
         ------
         StudioError
-            Where nothing armed in it.
+            Where nothing armed in it, unless takes of the same run are listed.
         """
         if tape is None:
             return "Stopped watching."
@@ -60,6 +60,8 @@ class Taking:
         try:
             return self._collection.add(tape.recording, name, tape.path, replaces) + most
         except StudioError as error:
+            if tape.plan.goes_on and isinstance(error, NothingTaughtError):
+                return f"Stopped. What came after the last take is kept as {tape.path.name}.{most}"
             raise StudioError(f"{error}.{most}" if most else str(error)) from error
 
     def again(self, activity: Activity, command: RecordAgain, finish: Callable[[], None]) -> Plan:

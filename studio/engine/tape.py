@@ -19,6 +19,7 @@ class Plan:
 
     replaces: int | None = None  # the listed demonstration whose place it takes
     repeats: bool = False  # whether the next one begins once a demonstration is over
+    goes_on: bool = False  # whether one is over already
 
 
 NO_PLAN = Plan()

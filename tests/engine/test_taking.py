@@ -173,8 +173,12 @@ def test_one_take_after_another_without_a_hand_on_the_mouse(
         after = until(session, lambda now, n=count: len(now.entries) == n, 90)
         assert after.mode is Mode.RECORDING
         assert after.time < 0.2  # in a world of its own
+    for _ in range(10):
+        session.tick()
     stopped = do(session, commands.Stop())
+    assert stopped.message.text.endswith("after the last take is kept as demonstration-003.mcap.")
     assert stopped.mode is Mode.IDLE
+    assert not stopped.message.is_error
     assert len(stopped.entries) == 2
     assert {entry.file.name for entry in stopped.entries} == {
         "demonstration-001.mcap",
