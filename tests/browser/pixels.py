@@ -22,11 +22,13 @@ def pixel(server: viser.ViserServer, page: Page, point: FloatArray) -> FloatArra
     return middle + scale * np.array([line @ right, -(line @ np.cross(right, ahead))])
 
 
-def drag(page: Page, start: FloatArray, target: FloatArray, pause: float = 200.0) -> None:
-    """Press at one pixel (2,), go to another in ten steps [ms apart], and let go there."""
+def drag(
+    page: Page, start: FloatArray, target: FloatArray, steps: int = 10, pause: float = 200.0
+) -> None:
+    """Press at one pixel (2,), go to another in steps ``pause`` [ms] apart, and let go there."""
     page.mouse.move(*start)
     page.mouse.down()
-    for share in np.linspace(0.1, 1.0, 10):
+    for share in np.linspace(1.0 / steps, 1.0, steps):
         page.mouse.move(*(start + share * (target - start)))
         page.wait_for_timeout(pause)
     page.mouse.up()

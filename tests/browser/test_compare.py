@@ -20,12 +20,13 @@ from tests.engine.lessons_at_hand import lesson
 
 ASIDE = np.array([1.0, 0.05, 0.87])  # [m] where no network looks for the block
 LONGER = 1500.0  # [ms] between two moves of a hesitating hand
+FAST = 4.0  # times real time
 
 
 @pytest.fixture
 def studio(page: Page, tmp_path: Path) -> Iterator[Studio]:
     page.set_viewport_size({"width": 1366, "height": 768})
-    with studio_on(page, tmp_path / "recordings", 1.0, drawn="furniture") as opened:
+    with studio_on(page, tmp_path / "recordings", FAST, drawn="furniture") as opened:
         opened.loop.session._listed.add(takes(2))
         opened.open_step("4 Compare")
         yield opened
@@ -49,7 +50,7 @@ def test_a_dragged_block_is_missed_and_hit_again_where_it_was_taught(studio: Stu
     learned(studio, lesson())
     studio.page.wait_for_timeout(2000)  # until a slow machine has drawn the block
     taught = studio.now.world.block_poses[0, :3].copy()
-    drag(studio.page, seen(studio, taught), seen(studio, ASIDE), LONGER)
+    drag(studio.page, seen(studio, taught), seen(studio, ASIDE), steps=4, pause=LONGER)
     moved = studio.waits(lambda now: now.compare.moved)
     np.testing.assert_allclose(moved.world.block_poses[0, :2], ASIDE[:2], atol=0.02)
     studio.shows("The block was moved.")

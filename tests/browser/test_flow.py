@@ -58,7 +58,7 @@ def walk(studio: Studio) -> None:
     studio.teach_once("demonstration-001")
     studio.teach_once("demonstration-002")
     for entry in studio.now.entries:  # a second of each, so that the film is soon done
-        studio.loop.session.post(commands.Trim(entry.number, 2.0, 3.2))
+        studio.loop.session.post(commands.Trim(entry.number, 2.0, 3.0))
     studio.waits(lambda now: all(entry.is_trimmed for entry in now.entries))
     studio.open_step("3 Learn")
     studio.press("Train")
