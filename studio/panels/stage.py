@@ -74,7 +74,6 @@ def set_the_stage(server: viser.ViserServer) -> None:
     camera.position, camera.look_at = ALONE.position, ALONE.look_at
     camera.fov = math.radians(43.0)
     scene = server.scene
-    scene.configure_environment_map("studio", environment_intensity=0.25)
     backdrop = np.linspace(_SKY, _GROUND, 64).astype(np.uint8)[:, None, :]
     scene.set_background_image(np.repeat(backdrop, 4, axis=1), format="png")
     scene.add_grid("/floor", width=10.0, height=10.0, shadow_opacity=0.25)
