@@ -95,7 +95,8 @@ class _Worker:
 
     @property
     def is_alive(self) -> bool:
-        return self._process.is_alive()
+        # Its connection ends before the system counts it among the dead.
+        return not self._ours.closed and self._process.is_alive()
 
     def do(self, task: Task, tell: Callable[[Message], None]) -> None:
         """Have a task done; ``tell`` hears what comes of it, on another thread."""
@@ -245,6 +246,7 @@ def _converse(ours: Connection, task: Task, tell: Callable[[Message], None]) -> 
             is_over = not isinstance(message, Found)
             tell(message)
     except (EOFError, OSError):
+        ours.close()
         tell(Trouble("its process ended in the middle of it; start it again"))
     except Exception as error:
         tell(Trouble(f"it cannot be sent to its process: {error}"))
