@@ -8,7 +8,7 @@ from itertools import count
 
 from studio.engine.errors import StudioError
 
-PATIENCE = 20.0  # [s] for a busy machine to start a process
+PATIENCE = 120.0  # [s] for a busy machine to start a process that steps back behind all others
 
 
 def is_gone(process: int) -> bool:
