@@ -11,17 +11,18 @@ from pathlib import Path
 
 import numpy as np
 
+from studio.engine import commands as engine
 from studio.engine.clock import LiveLoop
 from studio.engine.live.access import Address
 from studio.engine.remote.server import RemoteServer
 from studio.engine.seat import Seat
 from studio.engine.session import Session
-from studio.engine.snapshot import Snapshot
+from studio.engine.snapshot import Mode, Snapshot
 from studio.remote import Studio, connect
 from tests.remote.overheard import Overheard
 
 ROOT = Path(__file__).resolve().parents[2]
-PATIENCE = 30.0  # [s] for a busy machine
+PATIENCE = 120.0  # [s] for a busy machine; what depends on its speed is counted in ticks
 
 
 @dataclass
@@ -42,7 +43,7 @@ class House:
         return self.loop.session.snapshot
 
     def connect(self, **options) -> Studio:
-        return connect(self.url, **options)
+        return connect(self.url, **{"timeout": PATIENCE, **options})
 
     def start(self, *command: str | Path, **environment: str) -> subprocess.Popen[str]:
         """Start a program; it is gone when the house is closed."""
@@ -58,15 +59,31 @@ class House:
         self.programs.append(program)
         return program
 
-    def run(self, *command: str | Path, **environment: str) -> str:
-        """Run a program to its end and return what it printed."""
-        program = self.start(*command, **environment)
-        printed, said = program.communicate(timeout=120.0)
-        assert program.returncode == 0, (printed, said)
-        return printed
+    def run(self, *command: str | Path, tries: int = 1, **environment: str) -> str:
+        """Run a program until it succeeds, at most so often, and return what it printed.
 
-    def run_python(self, file: Path, *arguments: str | Path) -> str:
-        return self.run(sys.executable, "-W", "error", file, *arguments, "--url", self.url)
+        What goes by real time may need more than one try: a busy machine may halt it for a second.
+        """
+        for _ in range(tries):
+            program = self.start(*command, **environment)
+            printed, said = program.communicate(timeout=2 * PATIENCE)
+            if program.returncode == 0:
+                return printed
+        raise AssertionError((printed, said))
+
+    def stop_once_driven(self) -> None:
+        """Press Stop in the first tick that comes in which a program drives, however soon."""
+        waiting = [engine.Stop()]
+
+        def look(now: Snapshot) -> None:
+            if now.mode is Mode.DRIVEN and waiting:
+                self.loop.session.post(waiting.pop())
+
+        self.loop.watch(look)
+
+    def run_python(self, file: Path, *arguments: str | Path, tries: int = 1) -> str:
+        python = (sys.executable, "-W", "error")
+        return self.run(*python, file, *arguments, "--url", self.url, tries=tries)
 
 
 @contextmanager
@@ -98,14 +115,19 @@ def eventually(reached: Callable[[], object], seconds: float = PATIENCE) -> None
 
 
 def goes_on(house: House) -> bool:
-    """Whether ticks come by themselves."""
-    before = house.now.world.time
-    time.sleep(0.2)
-    return house.now.world.time > before
+    """Whether ticks come by themselves, however seldom."""
+    before = house.now
+    eventually(lambda: house.now.world.time != before.world.time)
+    return not house.loop.steps.is_held
 
 
 def stands_still(house: House) -> bool:
-    """Whether the robot's joints rest, for a quarter of a second of the session's ticks."""
+    """Whether the robot's joints rest, for a quarter of a second of the session's ticks.
+
+    Before that it has as long to come to rest.
+    """
+    begun = house.now
+    eventually(lambda: house.now.world.time - begun.world.time > 0.25)
     before = house.now
     eventually(lambda: house.now.world.time - before.world.time > 0.25)
     moved = house.now.world.joint_positions - before.world.joint_positions

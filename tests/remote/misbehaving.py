@@ -6,30 +6,35 @@ Usage: ``misbehaving.py WHAT URL``. It imports no engine, so that it is there at
 import itertools
 import sys
 import time
+from contextlib import suppress
 
-from studio.remote import Snapshot, Studio, commands, connect
+from studio.remote import RefusedError, Snapshot, Studio, commands, connect
 
 FAR = 1.5  # [rad] on the way there for longer than any test takes
 
 
 def drive(studio: Studio) -> None:
     studio.do(commands.PutBlockBack())
+    studio.do(commands.BeginDriving())
     for k in itertools.count():
         studio.set_joint_target({"left_s0": FAR})
-        if k == 20:
+        if k == 10:
             print("ready", flush=True)
         time.sleep(1 / 30)
 
 
 def hold_clock(studio: Studio) -> None:
     studio.do(commands.PutBlockBack())
-    with studio.clock(patience=1.0) as clock:
-        for k in itertools.count():
-            studio.set_joint_target({"left_s0": FAR})
-            clock.step()
-            if k == 20:
-                print("ready", flush=True)
-            time.sleep(1 / 30)
+    studio.do(commands.BeginDriving())
+    ready = False
+    while True:
+        with suppress(RefusedError), studio.clock(patience=0.5) as clock:
+            for k in itertools.count():
+                studio.set_joint_target({"left_s0": FAR})
+                clock.step()
+                if k == 20 and not ready:
+                    ready = print("ready", flush=True) is None
+                time.sleep(1 / 30)
 
 
 def record(studio: Studio) -> None:
@@ -46,7 +51,7 @@ def watch(studio: Studio) -> None:
 
 
 if __name__ == "__main__":
-    with connect(sys.argv[2]) as connected:
+    with connect(sys.argv[2], timeout=120.0) as connected:
         if sys.argv[1] != "watch":
             connected.take_control()
         globals()[sys.argv[1]](connected)

@@ -12,7 +12,8 @@ from websockets.sync.client import ClientConnection
 
 from studio.remote import link
 
-_ENOUGH = 20  # messages that are alike but for the digits in them: floods are thousands
+_ENOUGH = 20  # messages that are alike but for the numbers in them: floods are thousands
+_NUMBER = re.compile(r"-?\d+(\.\d+)?([eE][-+]?\d+)?")
 SCHEMA = Path(__file__).resolve().parents[2] / "docs" / "remote.schema.json"
 
 
@@ -35,7 +36,7 @@ class Overheard:
         """Return how many messages were exchanged; raise an error where one is not known."""
         seen: Counter[tuple[str, str]] = Counter()
         for side, message in self._messages:
-            alike = side, re.sub(r"\d+", "0", message)
+            alike = side, _NUMBER.sub(_as_any, message)
             seen[alike] += 1
             if seen[alike] <= _ENOUGH:
                 self._check(side, message)
@@ -67,6 +68,11 @@ class Overheard:
             whole = {"$ref": f"#/$defs/{mine[0]}", "$defs": self._parts}
             self._validators[side, kind] = Draft202012Validator(whole)
         return self._validators[side, kind]
+
+
+def _as_any(number: re.Match[str]) -> str:
+    """Whole numbers stay whole: what is to be one may not be another."""
+    return "0" if number[0].lstrip("-").isdigit() else "0.0"
 
 
 class Tapped:

@@ -29,17 +29,19 @@ from studio.remote import (
     UnreachableError,
     commands,
     connect,
+    link,
 )
 from studio.remote.files import Recorded, Sample
-from tests.remote.house import ROOT, House, eventually, goes_on, open_house
+from tests.remote.house import PATIENCE, ROOT, House, eventually, goes_on, open_house
 
 GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"  # of RFC 6455
+SPEED = 4.0  # of the session's time: what is said to take so many ticks is asked for in ticks
 SAMPLE = samples_folder() / "demonstration-1.mcap"
 
 
 @pytest.fixture(scope="module")
 def house(tmp_path_factory):
-    with open_house(tmp_path_factory.mktemp("house")) as opened:
+    with open_house(tmp_path_factory.mktemp("house"), speed=SPEED) as opened:
         yield opened
 
 
@@ -80,9 +82,10 @@ def test_the_welcome_names_the_joints_and_their_limits(house: House, studio) -> 
 
 def test_non_blocking_moves_the_joints_and_the_newest_wins(house: House, studio) -> None:
     studio.do(commands.PutBlockBack())
+    studio.do(commands.BeginDriving())
     for angle in (0.9, -0.9, 0.5, -0.3):
         studio.set_joint_target({"left_s0": angle})
-    now = studio.move_to({"left_s0": -0.3})
+    now = studio.move_to({"left_s0": -0.3}, PATIENCE)
     place = studio.welcome.joints.index("left_s0")
     assert now.positions[place] == pytest.approx(-0.3, abs=0.03)
     assert now.mode == "driven"
@@ -91,6 +94,7 @@ def test_non_blocking_moves_the_joints_and_the_newest_wins(house: House, studio)
 
 
 def test_what_cannot_be_driven_is_told_without_a_question(studio) -> None:
+    studio.do(commands.BeginDriving())
     studio.set_joint_target({"left_w9": 0.0})
     eventually(lambda: any("left_w9" in words for words in studio.complaints))
     studio.set_joint_target({"left_s0": 0.0}, closed=True)
@@ -99,28 +103,29 @@ def test_what_cannot_be_driven_is_told_without_a_question(studio) -> None:
 
 def test_without_news_the_robot_holds_and_nobody_drives_it_any_more(house: House, studio) -> None:
     studio.do(commands.PutBlockBack())
+    studio.do(commands.BeginDriving())
     place = studio.welcome.joints.index("left_s0")
-    studio.set_joint_target({"left_s0": 1.5})  # slowly at first: 0.15 rad in half a second
     before = studio.joint_states().positions[place]
-    eventually(lambda: house.now.driven is not None)
-    eventually(lambda: house.now.driven is None)
+    studio.set_joint_target({"left_s0": 1.5})  # slowly at first: 0.15 rad in half a second
+    eventually(lambda: "has sent nothing for 2 s" in house.now.message.text)
+    assert house.now.driven is None
     moved = abs(studio.joint_states().positions[place] - before)
     assert 0.05 < moved < 0.5
-    assert "has sent nothing for 2 s" in studio.snapshot().message.text
 
 
 @pytest.mark.parametrize("kind", [JointStates, Gate, Block, Snapshot])
 def test_streams_come_at_the_rate_that_was_asked_for(house: House, studio, kind) -> None:
     frames = studio.stream(kind, rate=10.0)
-    ticks = [next(frames).tick for _ in range(4)]
-    assert [after - before for before, after in pairwise(ticks)] == [3, 3, 3]
+    seen = [next(frames) for _ in range(4)]
+    for before, after in pairwise(seen):  # on a busy machine some may be missed, and are counted
+        assert after.tick - before.tick == 3 * (1 + after.missed - before.missed)
     frames.close()
 
 
 def test_synchronous_the_world_stands_still_between_steps(house: House, studio) -> None:
-    with studio.clock() as clock:
+    with studio.clock(PATIENCE) as clock:
         before = house.now.world.time
-        time.sleep(0.3)
+        time.sleep(0.1)
         assert house.now.world.time == before
         assert clock.step().state.time == pytest.approx(before + 1 / 30)
         assert clock.step(30).state.time == pytest.approx(before + 31 / 30)
@@ -132,8 +137,9 @@ def test_synchronous_the_world_stands_still_between_steps(house: House, studio) 
 
 def test_the_same_steps_give_the_same_motion_bit_for_bit(house: House, studio) -> None:
     def moved() -> list[float]:
-        with studio.clock() as clock:
+        with studio.clock(PATIENCE) as clock:
             studio.do(commands.PutBlockBack())
+            studio.do(commands.BeginDriving())
             for k in range(40):
                 studio.set_joint_target({"left_s0": -0.01 * k, "left_s1": -0.2})
                 time.sleep(0.0005 * (k % 3))  # however long the program thinks
@@ -155,16 +161,16 @@ def test_files_are_uploaded_named_and_fetched(house: House, studio, tmp_path: Pa
     before = len(studio.snapshot().entries)
     uploaded = studio.upload(SAMPLE)
     assert studio.do(commands.UseFile(uploaded)) == f"Reading {SAMPLE.name}."
-    now = studio.wait_for(lambda now: len(now.entries) == before + 1)
+    now = studio.wait_for(lambda now: len(now.entries) == before + 1, PATIENCE)
     assert now.entries[-1].name == SAMPLE.stem
     shutil.copy(samples_folder() / "demonstration-2.mcap", house.folder / "mine.mcap")
-    studio.wait_for(lambda now: any(f.name == "mine.mcap" for f in now.collection.files))
+    studio.wait_for(lambda now: any(f.name == "mine.mcap" for f in now.collection.files), PATIENCE)
     studio.do(commands.AddFrom(Recorded("mine.mcap")))
-    now = studio.wait_for(lambda now: len(now.entries) == before + 2)
+    now = studio.wait_for(lambda now: len(now.entries) == before + 2, PATIENCE)
     whole = studio.demonstration(now.entries[-1].number)
     assert len(whole.times) == len(whole.sent) > 100
     studio.do(commands.Export(("mcap",)))
-    done = studio.wait_for(lambda now: now.export.number > 0 and not now.export.running)
+    done = studio.wait_for(lambda now: now.export.number > 0 and not now.export.running, PATIENCE)
     fetched = studio.fetch_file(done.export.files[0])
     assert fetched == house.now.export.files[0].read_bytes()
 
@@ -187,16 +193,16 @@ def test_what_is_large_is_told_when_it_is_asked_for(house: House, studio) -> Non
         studio.field()
     before = len(studio.snapshot().entries)
     studio.do(commands.UseFile(Sample("demonstration-1.mcap")))
-    studio.wait_for(lambda now: len(now.entries) > before)
+    studio.wait_for(lambda now: len(now.entries) > before, PATIENCE)
     studio.do(commands.Train(commands.LearnerSettings("rbf", 30)))
-    studio.wait_for(lambda now: now.lesson is not None)
+    studio.wait_for(lambda now: now.lesson is not None, PATIENCE)
     lesson = studio.lesson()
     assert lesson.model is not None
     assert lesson.model["learner"] == "RBFRegressor"
     assert (len(lesson.curve), len(lesson.curve[0])) == (142, len(lesson.summary.joints))
-    with studio.clock() as clock:
+    with studio.clock(PATIENCE) as clock:
         studio.do(commands.PlayReproduction())
-        done = clock.wait_for(lambda now: now.reproduction is not None)
+        done = clock.wait_for(lambda now: now.reproduction is not None, PATIENCE)
     assert done.reproduction is not None
     reproduction = studio.reproduction()
     assert reproduction.block_down == done.reproduction.block_down
@@ -239,7 +245,7 @@ def test_a_studio_that_reads_nothing_holds_up_nobody_for_long(house: House) -> N
     with house.connect() as studio:
         welcome = msgspec.json.encode(studio.welcome)
     with socket.create_server(("127.0.0.1", 0)) as listening:
-        listening.settimeout(10.0)
+        listening.settimeout(PATIENCE)
 
         def stall() -> None:
             line, _ = listening.accept()
@@ -256,13 +262,15 @@ def test_a_studio_that_reads_nothing_holds_up_nobody_for_long(house: House) -> N
         held: list[socket.socket] = []
         stalling = threading.Thread(target=stall)
         stalling.start()
-        studio = connect(f"ws://127.0.0.1:{listening.getsockname()[1]}", timeout=1.0)
+        studio = connect(f"ws://127.0.0.1:{listening.getsockname()[1]}", timeout=PATIENCE)
         stalling.join()
+        studio._link.timeout = 0.2
+        link._limit_sending(studio._link._socket, 0.2)
         with pytest.raises(LateError):
             studio.snapshot()
         begun = time.monotonic()
         with pytest.raises(LostError):
             send_without_end(studio)
-        assert time.monotonic() - begun < 15.0
+        assert time.monotonic() - begun < PATIENCE
         studio.close()
         held[0].close()

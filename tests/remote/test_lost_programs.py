@@ -20,7 +20,7 @@ S0 = JOINT_NAMES.index("left_s0")
 
 @pytest.fixture(scope="module")
 def house(tmp_path_factory):
-    with open_house(tmp_path_factory.mktemp("house")) as opened:
+    with open_house(tmp_path_factory.mktemp("house"), speed=2.0) as opened:
         yield opened
 
 
@@ -43,9 +43,11 @@ def is_safe(house: House) -> None:
 
 def test_killed_while_it_drives(house: House) -> None:
     program = begun(house, "drive")
-    assert house.now.mode is Mode.DRIVEN
-    at = house.now.world.joint_positions[S0]
+    eventually(lambda: house.now.mode is Mode.DRIVEN)
     program.kill()
+    program.wait()
+    at = house.now.world.joint_positions[S0]
+    eventually(lambda: house.seat.holder is None)
     eventually(lambda: house.now.mode is Mode.IDLE)
     assert CLOSED in house.now.message.text
     assert abs(house.now.world.joint_positions[S0] - at) < 0.5
@@ -116,4 +118,4 @@ def _impatient() -> doorway.House:
 
     from studio.engine.remote import server  # noqa: PLC0415
 
-    return replace(server._HOUSE, alive_every=0.5)
+    return replace(server._HOUSE, alive_every=1.0)

@@ -9,6 +9,7 @@ its manual that concern joints and the simulation's state. The genuine Python cl
 
 import threading
 import time
+from collections.abc import Callable
 
 import cbor2
 import zmq
@@ -25,8 +26,9 @@ HANDLES = {joint: 15 + 3 * number for number, joint in enumerate(JOINTS)}
 class CoppeliaSimServer:
     """A context manager; `arms` is the robot, the rest is what may go wrong with it."""
 
-    def __init__(self, port: int = 0) -> None:
-        self.arms = ArmsModel()
+    def __init__(self, now: Callable[[], float] = time.monotonic, haste: float = 1.0) -> None:
+        self.arms = ArmsModel(None, now, haste)
+        self._now = now
         self.state, self.locked, self.stepping = 0, 0, False
         self.paths = {f"/Baxter/{old_name(joint)}": joint for joint in JOINTS}
         limits = load_robot().limits_of(JOINTS)
@@ -36,7 +38,7 @@ class CoppeliaSimServer:
         }
         self.silent, self.garbage = False, False
         self.complaints: list[str] = []
-        self._port = port
+        self._port = 0
 
     def __enter__(self) -> "CoppeliaSimServer":
         self._closing = threading.Event()
@@ -73,11 +75,11 @@ class CoppeliaSimServer:
         self.__enter__()
 
     def _serve(self) -> None:
-        due = time.monotonic()
+        due = self._now()
         while not self._closing.is_set():
             if self._socket.poll(2):
                 self._answer(self._socket.recv())
-            if time.monotonic() >= due and not self.locked:
+            if self._now() >= due and not self.locked:
                 due += STEP
                 self.arms.pass_time()
         self._socket.close()

@@ -1,5 +1,6 @@
 """A robot of a few lines, and the gatekeeper before it: what most tests of links share."""
 
+import threading
 import time
 
 import numpy as np
@@ -16,6 +17,7 @@ from studio.engine.pipeline import ready_pose
 from studio.engine.robot import CONTROL_PERIOD, JOINT_NAMES, load_robot
 from studio.engine.scene import Scene
 from studio.engine.skeleton import SIDES, FloatArray
+from tests.engine.links.unhurried import CLOCK, PATIENCE, eventually
 
 ROBOT = load_robot()
 LEFT = ROBOT.arm_joints("left")
@@ -124,19 +126,14 @@ class Rig:
 SCENES = {arms: Scene(arms=arms) for arms in ("left", "right", "both")}
 
 
-HASTE = 2.0  # times more ticks a second than a session has
-SLOWNESS = 3.0  # so much slower is the rig's clock: a busy machine must not be late by 0.2 s
-
-
-def slow() -> float:
-    return time.monotonic() / SLOWNESS
+HASTE = 3.0  # times more ticks a second than a session has, and as much quicker motors
 
 
 class LiveRig:
-    """The gatekeeper before a genuine link, in real time: what the session does, without one."""
+    """The gatekeeper before a genuine link, by `CLOCK`: what the session does, without one."""
 
     def __init__(self, link: RobotLink) -> None:
-        self.thread = LinkThread(link, slow)
+        self.thread = LinkThread(link, CLOCK)
         self.memory = Memory()
         self.wanted, self.permitted = start_of({}), False
 
@@ -148,7 +145,7 @@ class LiveRig:
 
     @property
     def seen(self) -> Seen:
-        return Seen.of(self.thread.heard, slow(), self.thread.trouble)
+        return Seen.of(self.thread.heard, CLOCK(), self.thread.trouble)
 
     @property
     def phase(self) -> Phase:
@@ -177,14 +174,21 @@ class LiveRig:
         asked = Wanted(self.wanted, self.permitted, why, "left", SCENES["left"])
         self.memory, outcome = step(self.memory, self.seen, asked)
         self.thread.put(outcome.targets)
-        time.sleep(CONTROL_PERIOD / HASTE)
+        CLOCK.sleep(CONTROL_PERIOD / HASTE)
 
-    def until(self, reached, seconds: float = 8.0) -> "LiveRig":
-        end = time.monotonic() + seconds
+    def until(self, reached) -> "LiveRig":
+        end = time.monotonic() + PATIENCE
         while not reached():
             assert time.monotonic() < end, f"never: {self.phase} {self.why} {self.seen.trouble}"
             self.tick()
         return self
+
+    def settle(self) -> None:
+        """Wait until all that is on its way to the robot has come there, or been dropped."""
+        passed = threading.Event()
+        self.thread.order(lambda _: passed.set())
+        eventually(lambda: passed.is_set() or not self.thread.is_open)
+        CLOCK.sleep(0.1)
 
     def heard(self) -> "LiveRig":
         return self.until(lambda: self.seen.state is not None)

@@ -41,8 +41,9 @@ OTHERS = {"head_pan": 0.1, "torso_t0": 0.0, "l_gripper_l_finger_joint": 0.02, "h
 class RosbridgeServer:
     """A context manager; `arms` is the robot, the rest is what may go wrong with it."""
 
-    def __init__(self, port: int = 0) -> None:
-        self.arms = ArmsModel(drops_out=0.6)
+    def __init__(self, now: Callable[[], float] = time.monotonic, haste: float = 1.0) -> None:
+        self.arms = ArmsModel(0.6, now, haste)
+        self._now = now
         self.button = 0  # AssemblyState.estop_button
         self.enables = True  # whether it powers its motors when asked
         self.order: Callable[[list[str]], list[str]] = lambda names: names
@@ -52,7 +53,7 @@ class RosbridgeServer:
         self.silent = False
         self.complaints: list[str] = []
         self.heard: list[dict] = []
-        self._port, self._queue = port, []
+        self._port, self._queue = 0, []
 
     def __enter__(self) -> "RosbridgeServer":
         self._closing = threading.Event()
@@ -169,8 +170,8 @@ class RosbridgeServer:
             self.arms.pass_time()
             if self.silent:
                 continue
-            self._queue.append((time.monotonic() + self.delay, self._joint_states()))
-            while self._queue and self._queue[0][0] <= time.monotonic():
+            self._queue.append((self._now() + self.delay, self._joint_states()))
+            while self._queue and self._queue[0][0] <= self._now():
                 self._publish(topics.JOINT_STATES[0], self._queue.pop(0)[1])
             self._publish(topics.ROBOT_STATE[0], self._assembly())
 
@@ -186,7 +187,7 @@ class RosbridgeServer:
     def _joint_states(self) -> dict:
         told = {**self.arms.positions, **OTHERS}
         names = [name for name in self.order([*told]) if name not in self.untold]
-        now = 1e9 + time.monotonic()
+        now = 1e9 + self._now()
         return {
             "header": {"seq": 0, "frame_id": "", "stamp": _stamp(now)},
             "name": names,

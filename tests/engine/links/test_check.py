@@ -1,29 +1,29 @@
 """The check finds each fault that a robot may have, and leaves it without power."""
 
-import time
 from collections.abc import Iterator
 from unittest.mock import ANY
 
 import numpy as np
 import pytest
 
-from studio.engine.links import check, consent, moving_check
+from studio.engine.links import check, consent, coppeliasim, moving_check, rosbridge
 from studio.engine.links.address import link_at
 from studio.engine.links.check import RISES, Finding, Looking, look
 from studio.engine.links.driver import LinkThread
 from studio.engine.links.moving_check import MovingCheck
-from studio.engine.robot import ARM_JOINTS, JOINT_NAMES, load_robot
+from studio.engine.robot import ARM_JOINTS, CONTROL_PERIOD, JOINT_NAMES, load_robot
 from studio.engine.skeleton import SIDES
 from tests.engine.links.coppeliasim_server import CoppeliaSimServer
-from tests.engine.links.rig import slow
+from tests.engine.links.rig import HASTE
 from tests.engine.links.rosbridge_server import RosbridgeServer
+from tests.engine.links.unhurried import CLOCK, PATIENCE, eventually
 
 
 @pytest.fixture(autouse=True)
 def hasty(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Less patience; and fewer states are asked for, for machines that are busy."""
+    """Less is looked at; and all the time is given to what has to come."""
     monkeypatch.setattr(check, "LISTENS", 0.1)
-    monkeypatch.setattr(check, "CONNECTS_WITHIN", 0.25)
+    monkeypatch.setattr(check, "CONNECTS_WITHIN", PATIENCE)
     monkeypatch.setattr(check, "SLOWEST", 1.0)
     monkeypatch.setattr(moving_check, "SPEED", 0.2)
     monkeypatch.setattr(moving_check, "_LOOKS", 0.1)
@@ -32,7 +32,7 @@ def hasty(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(params=[RosbridgeServer, CoppeliaSimServer], ids=["rosbridge", "coppeliasim"])
 def robot(request) -> Iterator[RosbridgeServer | CoppeliaSimServer]:
-    with request.param() as server:
+    with request.param(CLOCK, HASTE) as server:
         server.arms.positions["left_e1"] = 0.6
         yield server
         assert server.complaints == []
@@ -40,8 +40,8 @@ def robot(request) -> Iterator[RosbridgeServer | CoppeliaSimServer]:
 
 @pytest.fixture
 def looking(robot) -> Iterator[Looking]:
-    thread = LinkThread(link_at(robot.url, slow), slow)
-    yield Looking(thread, slow, lambda: time.sleep(1 / 90))
+    thread = LinkThread(link_at(robot.url, CLOCK), CLOCK)
+    yield Looking(thread, CLOCK, lambda: CLOCK.sleep(CONTROL_PERIOD / HASTE))
     thread.close()
 
 
@@ -94,9 +94,9 @@ def test_a_wrong_joint_is_found(robot, looking: Looking, fault: str) -> None:
     assert next(findings).passed is True
     assert next(findings) == Finding("left_s0 +6°", False, ANY)
     findings.close()  # a person has seen enough
-    time.sleep(0.05)
+    eventually(lambda: not robot.arms.powered)  # the last thing that it is told
     left = looking.thread.sent
-    time.sleep(0.1)
+    CLOCK.sleep(0.1)
     assert looking.thread.sent == left
 
 
@@ -106,7 +106,16 @@ def test_a_pressed_stop_is_told(robot, looking: Looking) -> None:
     assert found["emergency stop"].passed is False
 
 
-def test_nobody_there(robot, looking: Looking) -> None:
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That nobody is there is heard of by no answer."""
+    monkeypatch.setattr(coppeliasim, "_ANSWERS_WITHIN", 0.2)
+    monkeypatch.setattr(rosbridge, "_CONNECTS_WITHIN", 0.2)
+
+
+@pytest.mark.usefixtures("impatient")
+def test_nobody_there(robot, looking: Looking, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(check, "CONNECTS_WITHIN", 0.25)
     robot.kill()
     found = list(look(looking))
     assert found[-1].passed is False
@@ -148,10 +157,7 @@ def test_interrupted_by_a_person_it_takes_the_power_off(robot, looking: Looking)
     with pytest.raises(KeyboardInterrupt):
         list(MovingCheck(looking, "left", ask).findings())
     looking.thread.close()
-    deadline = time.monotonic() + 5.0
-    while robot.arms.powered:
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+    eventually(lambda: not robot.arms.powered)
 
 
 @pytest.mark.parametrize("robot", [RosbridgeServer], indirect=True)

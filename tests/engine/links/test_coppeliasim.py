@@ -14,12 +14,13 @@ from studio.engine.links.link import LinkError
 from studio.engine.links.status import Phase
 from tests.engine.links.arms_model import JOINTS
 from tests.engine.links.coppeliasim_server import CoppeliaSimServer, old_name
-from tests.engine.links.rig import LiveRig, slow
+from tests.engine.links.rig import HASTE, LiveRig
+from tests.engine.links.unhurried import CLOCK
 
 
 @pytest.fixture
 def scene() -> Iterator[CoppeliaSimServer]:
-    with CoppeliaSimServer() as server:
+    with CoppeliaSimServer(CLOCK, HASTE) as server:
         server.arms.positions["left_e1"] = 0.6
         yield server
         assert server.complaints == []
@@ -83,7 +84,7 @@ def test_a_model_whose_joint_is_not_ours(scene, link, joint, interval, words) ->
 
 def test_it_runs_in_its_own_time(scene: CoppeliaSimServer) -> None:
     """Nothing is stepped: the simulation goes on whatever the studio does."""
-    with LiveRig(link_at(scene.url, slow)) as rig:
+    with LiveRig(link_at(scene.url, CLOCK)) as rig:
         rig.move("left_e1", 0.6)
         rig.moving()
         assert not scene.stepping
@@ -91,7 +92,7 @@ def test_it_runs_in_its_own_time(scene: CoppeliaSimServer) -> None:
 
 
 def test_a_paused_simulation_goes_on_when_enabled(scene: CoppeliaSimServer) -> None:
-    with LiveRig(link_at(scene.url, slow)) as rig:
+    with LiveRig(link_at(scene.url, CLOCK)) as rig:
         rig.heard()
         scene.press()
         rig.until(lambda: rig.seen.state is not None and rig.seen.state.resets)
@@ -101,7 +102,7 @@ def test_a_paused_simulation_goes_on_when_enabled(scene: CoppeliaSimServer) -> N
 
 
 def test_garbage_is_a_lost_simulator(scene: CoppeliaSimServer) -> None:
-    with LiveRig(link_at(scene.url, slow)) as rig:
+    with LiveRig(link_at(scene.url, CLOCK)) as rig:
         rig.move("left_e1", 0.6)
         rig.moving()
         scene.garbage = True
@@ -111,14 +112,13 @@ def test_garbage_is_a_lost_simulator(scene: CoppeliaSimServer) -> None:
         assert rig.phase is Phase.OFF
 
 
-def test_nobody_there() -> None:
+def test_nobody_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(coppeliasim, "_ANSWERS_WITHIN", 0.2)
     with socket.create_server(("127.0.0.1", 0)) as gone:
         port = gone.getsockname()[1]
     link = CoppeliaSim("coppeliasim://gone", "127.0.0.1", port, "Baxter", time.monotonic)
-    begun = time.monotonic()
     with pytest.raises(LinkError, match="does not answer"):
         link.open()
-    assert time.monotonic() - begun < 5.0
     link.close()
     link.close()
     with pytest.raises(LinkError, match="not open"):

@@ -1,25 +1,26 @@
-"""The laws that every link keeps, each before its stand-in: in real time, over real sockets."""
+"""The laws that every link keeps, each before its stand-in: over real sockets."""
 
-import time
 from collections.abc import Iterator
 
 import pytest
 
+from studio.engine.links import coppeliasim, rosbridge
 from studio.engine.links.address import link_at
 from studio.engine.links.driver import STALE
 from studio.engine.links.gatekeeper import JUMP
 from studio.engine.links.status import Phase
 from studio.engine.links.tracking import ASIDE
 from tests.engine.links.coppeliasim_server import CoppeliaSimServer
-from tests.engine.links.rig import LEFT, SLOWNESS, LiveRig, slow
+from tests.engine.links.rig import HASTE, LEFT, LiveRig
 from tests.engine.links.rosbridge_server import RosbridgeServer
+from tests.engine.links.unhurried import CLOCK
 
 StandIn = RosbridgeServer | CoppeliaSimServer
 
 
 @pytest.fixture(params=[RosbridgeServer, CoppeliaSimServer], ids=["rosbridge", "coppeliasim"])
 def robot(request) -> Iterator[StandIn]:
-    with request.param() as server:
+    with request.param(CLOCK, HASTE) as server:
         server.arms.positions["left_e1"] = 0.6  # away from the limit that is next to zero
         yield server
         assert server.complaints == []
@@ -27,7 +28,7 @@ def robot(request) -> Iterator[StandIn]:
 
 @pytest.fixture
 def rig(robot: StandIn) -> Iterator[LiveRig]:
-    with LiveRig(link_at(robot.url, slow)) as made:
+    with LiveRig(link_at(robot.url, CLOCK)) as made:
         made.move("left_e1", 0.6)
         yield made
 
@@ -77,12 +78,12 @@ def test_limits(robot: StandIn, rig: LiveRig) -> None:
 
 def test_watchdog_a_studio_that_stalls_sends_nothing(robot: StandIn, rig: LiveRig) -> None:
     rig.moving()
-    time.sleep(STALE * SLOWNESS)  # the session's ticks have stopped, the link's thread goes on
+    CLOCK.sleep(2 * STALE)  # the session's ticks have stopped, the link's thread goes on
     count = len(robot.arms.commands)
-    time.sleep(STALE * SLOWNESS)
+    CLOCK.sleep(STALE)
     assert len(robot.arms.commands) == count
     stands = dict(robot.arms.positions)
-    time.sleep(0.1)
+    CLOCK.sleep(0.1)
     assert robot.arms.positions == stands
     rig.until(lambda: len(robot.arms.commands) > count)  # it was not lost
 
@@ -91,7 +92,7 @@ def test_watchdog_disarming_ends_commands(robot: StandIn, rig: LiveRig) -> None:
     rig.moving()
     rig.permitted = False
     rig.tick()
-    time.sleep(0.1)
+    rig.settle()
     count = len(robot.arms.commands)
     for _ in range(10):
         rig.move("left_s0", 0.01)
@@ -105,7 +106,10 @@ def fallen(robot: StandIn, rig: LiveRig, words: str) -> None:
     rig.until(lambda: rig.phase is Phase.OFF)
     assert words in rig.why
     assert "Enable and confirm anew" in rig.why
-    time.sleep(0.05)
+    if robot.silent:  # the link may wait for it
+        CLOCK.sleep(STALE)
+    else:
+        rig.settle()
     count = len(robot.arms.commands)
     for _ in range(10):
         rig.tick()
@@ -125,6 +129,14 @@ def test_emergency_stop(robot: StandIn, rig: LiveRig) -> None:
     fallen(robot, rig, "paused" if isinstance(robot, CoppeliaSimServer) else "e-stop is pressed")
 
 
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That a robot is gone is heard of by no answer; it is looked for again and again."""
+    monkeypatch.setattr(coppeliasim, "_ANSWERS_WITHIN", 2.0)
+    monkeypatch.setattr(rosbridge, "_CONNECTS_WITHIN", 2.0)
+
+
+@pytest.mark.usefixtures("impatient")
 def test_a_lost_connection_and_its_return(robot: StandIn, rig: LiveRig) -> None:
     rig.moving()
     robot.kill()
@@ -143,6 +155,7 @@ def test_a_robot_that_says_nothing_any_more(robot: StandIn, rig: LiveRig) -> Non
     rig.moving()
     robot.silent = True
     fallen(robot, rig, "")
+    robot.silent = False
 
 
 def test_a_joint_that_turns_the_other_way(robot: StandIn, rig: LiveRig) -> None:

@@ -17,13 +17,14 @@ from studio.engine.links.driver import STALE
 from studio.engine.links.link import LinkError
 from studio.engine.links.rosbridge import Rosbridge
 from studio.engine.links.status import Phase
-from tests.engine.links.rig import LiveRig, slow
+from tests.engine.links.rig import HASTE, LiveRig
 from tests.engine.links.rosbridge_server import OTHERS, TYPES, RosbridgeServer
+from tests.engine.links.unhurried import CLOCK
 
 
 @pytest.fixture
 def robot() -> Iterator[RosbridgeServer]:
-    with RosbridgeServer() as server:
+    with RosbridgeServer(CLOCK, HASTE) as server:
         server.arms.positions["left_e1"] = 0.6
         yield server
         assert server.complaints == []
@@ -31,7 +32,7 @@ def robot() -> Iterator[RosbridgeServer]:
 
 @pytest.fixture
 def rig(robot: RosbridgeServer) -> Iterator[LiveRig]:
-    with LiveRig(link_at(robot.url, slow)) as made:
+    with LiveRig(link_at(robot.url, CLOCK)) as made:
         made.move("left_e1", 0.6)
         yield made
 
@@ -164,17 +165,15 @@ def test_a_robot_that_does_not_power_its_motors(robot, rig: LiveRig, monkeypatch
 
 @pytest.fixture
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rosbridge, "_CONNECTS_WITHIN", 0.5)
+    monkeypatch.setattr(rosbridge, "_CONNECTS_WITHIN", 0.2)
 
 
 @pytest.mark.usefixtures("impatient")
 def test_a_server_that_accepts_and_says_nothing() -> None:
     with socket.create_server(("127.0.0.1", 0)) as deaf:
         link = Rosbridge("rosbridge://deaf", "127.0.0.1", deaf.getsockname()[1], time.monotonic)
-        begun = time.monotonic()
         with pytest.raises(LinkError, match="no rosbridge answers"):
             link.open()
-        assert time.monotonic() - begun < 10.0
         link.close()
 
 
@@ -198,6 +197,6 @@ def test_the_extra_is_named_where_it_is_missing(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_closing_leaves_no_thread_of_ours(robot: RosbridgeServer) -> None:
-    with LiveRig(link_at(robot.url, slow)) as rig:
+    with LiveRig(link_at(robot.url, CLOCK)) as rig:
         rig.heard()
     assert not [each for each in threading.enumerate() if each.name == "robot link"]

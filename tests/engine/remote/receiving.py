@@ -4,8 +4,6 @@ import json
 from contextlib import contextmanager
 from pathlib import Path
 
-import msgspec
-
 from studio.engine.links.linked import Linked
 from studio.engine.live.source import LiveSource
 from studio.engine.remote.guest import Guest
@@ -56,8 +54,7 @@ class Hall:
     def told(self, guest: Guest) -> list[dict]:
         """What lies in a guest's outbox, which is empty then."""
         found = []
-        while (told := guest.outbox.next()) is not None:
-            text = msgspec.json.encode(told).decode()
+        while (text := guest.outbox.next()) is not None:
             self.overheard("told", text)
             found.append(json.loads(text))
         return found
