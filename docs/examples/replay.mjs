@@ -118,6 +118,7 @@ function targetsOf(lesson) {
 }
 
 function isThere(states, targets, joints) {
+  if (states.stopped) throw new Error("somebody has stopped Baxter");
   const gaps = Object.keys(targets).map((joint) =>
     Math.abs(states.positions[joints.indexOf(joint)] - targets[joint]),
   );
@@ -127,9 +128,12 @@ function isThere(states, targets, joints) {
 /** `pass` lets one tick pass, and returns where the joints are then. */
 async function replay(studio, motion, pass) {
   const drive = (targets) => studio.send({ type: "set_joint_target", targets });
+  await studio.do({ type: "begin_driving" }); // after a Stop no target counts without it
+  const begun = await studio.ask({ type: "get", what: "joint_states" });
   for (;;) {
     drive(motion[0]);
-    if (isThere(await pass(), motion[0], studio.joints)) break;
+    const states = await pass(); // of a stream, a frame from before may be on its way
+    if (states.tick > begun.tick && isThere(states, motion[0], studio.joints)) break;
   }
   const settling = new Array(Math.round(SETTLE * RATE)).fill(motion.at(-1));
   for (const targets of [...motion, ...settling]) {

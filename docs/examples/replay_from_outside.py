@@ -40,6 +40,8 @@ def main() -> int:
             down = replay_in_steps(studio, clock, motion)
         else:
             down = replay_in_real_time(studio, motion)
+        for words in studio.complaints:  # such as that somebody has stopped Baxter
+            print(words, file=sys.stderr)
     print(f"the block is {'down' if down else 'still standing'}")
     return 0 if down else 1
 

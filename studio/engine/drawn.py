@@ -7,7 +7,7 @@ from studio.engine.calibrating import Calibrating
 from studio.engine.choices import Choices
 from studio.engine.collection import Collection
 from studio.engine.comparing import Comparing
-from studio.engine.driving import Driven
+from studio.engine.driving import Driven, Driving
 from studio.engine.exporting import Exporting
 from studio.engine.learning import Learning
 from studio.engine.links.linked import Linked
@@ -31,6 +31,7 @@ class Parts:
     exporting: Exporting
     taking: Taking
     linked: Linked
+    driving: Driving
 
     def drawn(
         self, now: Activity, message: Message, choices: Choices, calibrated_with: str
@@ -75,4 +76,5 @@ class Parts:
             saved_as=self.taking.saved_as,
             link=self.linked.status,
             driven=now.status if isinstance(now, Driven) else None,
+            stopped=self.driving.is_stopped,
         )

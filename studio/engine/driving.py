@@ -1,7 +1,8 @@
 """An activity: a program says where joints go, through the limits and guard of every playback.
 
 It is a dead man's switch: without news for `HOLD_AFTER` the robot stands where it is, after
-`END_AFTER` nobody drives it any more. Whoever comes back is followed softly, as at the beginning.
+`END_AFTER` nobody drives it any more. Whoever comes back is followed softly, as at the beginning;
+but not after a Stop, which a program that just goes on sending may not have noticed.
 """
 
 import math
@@ -11,7 +12,7 @@ import numpy as np
 from studio.engine.activity import Activity, Hold
 from studio.engine.arms import driven_joints, in_words
 from studio.engine.choices import Choices
-from studio.engine.commands import SetJointTarget
+from studio.engine.commands import BeginDriving, DriveCommand, SetJointTarget, Stop
 from studio.engine.engage import ARRIVED_WITHIN, EngageMemory, largest
 from studio.engine.errors import StudioError
 from studio.engine.hands import HandCommand
@@ -125,7 +126,37 @@ def driven(activity: Activity, choices: Choices, command: SetJointTarget) -> Dri
         return activity
     if not command.targets and command.closed is None:
         return None
+    _require_free(activity)
+    return Driven(activity.world, choices, command)
+
+
+class Driving:
+    """Whether a program's targets count: after a Stop, by whomever, only once it begins anew."""
+
+    def __init__(self) -> None:
+        self.is_stopped = False
+
+    def hear(self, command: object) -> None:
+        """Note a Stop."""
+        self.is_stopped = self.is_stopped or isinstance(command, Stop)
+
+    def take(self, activity: Activity, choices: Choices, command: DriveCommand) -> Driven | None:
+        """Return what goes on after ``command``, if anything else: nothing for a stopped program.
+
+        Raises
+        ------
+        StudioError
+            As `driven` does, and where there is nothing to begin.
+        """
+        if isinstance(command, BeginDriving):
+            if not isinstance(activity, Driven):
+                _require_free(activity)
+            self.is_stopped = False
+            return None
+        return None if self.is_stopped else driven(activity, choices, command)
+
+
+def _require_free(activity: Activity) -> None:
     is_free = isinstance(activity, Hold) or (isinstance(activity, Show) and not activity.is_playing)
     if not is_free:
         raise StudioError("Somebody teaches, or something plays: Stop first, then drive the joints")
-    return Driven(activity.world, choices, command)

@@ -13,3 +13,4 @@ class ExportStatus:
     number: int = 0  # of the newest export that is done
     files: tuple[Path, ...] = ()  # which it wrote
     opening: str = ""  # the session's archive that is being read, as people know it
+    opened_from: Path | None = None  # where that lies

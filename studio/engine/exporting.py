@@ -66,7 +66,12 @@ class Exporting:
     def status(self) -> ExportStatus:
         """How it stands."""
         return ExportStatus(
-            self._running, self._share, self._number, self._files, self._opening.name
+            self._running,
+            self._share,
+            self._number,
+            self._files,
+            self._opening.name,
+            self._opening.path,
         )
 
     def take(self, command: ExportCommand, choices: Choices) -> str:

@@ -5,6 +5,7 @@ What is in one comes over in small parts: to take in long recordings at once wou
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from studio.engine.commands.export import OpenSession
 from studio.engine.errors import FileError
@@ -103,6 +104,11 @@ class Opening:
     def name(self) -> str:
         """The archive that is being read, as people know it; nothing where none is."""
         return "" if self._command is None else self._command.shown
+
+    @property
+    def path(self) -> Path | None:
+        """Where that archive lies."""
+        return None if self._command is None else self._command.path
 
     def poll(self) -> Opened | None:
         """Let a tick pass; return an archive once it has been read.

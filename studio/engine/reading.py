@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from studio.engine.commands.source import UseFile
 from studio.engine.errors import FileError
@@ -157,6 +158,12 @@ class Reading:
         if self._file is None:
             return None
         return ReadingStatus(self._file.shown, self._share, len(self._waiting))
+
+    @property
+    def files(self) -> frozenset[Path]:
+        """Files that are being read, or wait for it."""
+        waiting = frozenset(file.path for file, _ in self._waiting)
+        return waiting if self._file is None else waiting | {self._file.path}
 
     def close(self) -> None:
         """Give up whatever is being read."""

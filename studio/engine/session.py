@@ -19,7 +19,7 @@ from studio.engine.collection import Collection
 from studio.engine.commands import Command
 from studio.engine.comparing import Comparing
 from studio.engine.drawn import Parts
-from studio.engine.driving import SILENT, Driven, driven
+from studio.engine.driving import SILENT, Driven, Driving
 from studio.engine.errors import StudioError
 from studio.engine.exporting import Exporting
 from studio.engine.films import Film
@@ -59,14 +59,13 @@ class Session:
         work: Workplace | None = None,
         linked: Linked | None = None,
     ) -> None:
-        self._inbox = Inbox()
+        self._inbox, self._who = Inbox(), WhoTeaches(seed, live)
         self._choices, self._calibrated_with = Choices(), ""
-        self._who = WhoTeaches(seed, live)
         self._collection = Collection(recordings, self.post)
         self._listed = self._collection.listed
         self._taking = Taking(recordings, self._collection)
         self._learning = Learning(self._listed, work)
-        self._comparing = Comparing()
+        self._comparing, self._driving = Comparing(), Driving()
         self._exporting = Exporting(self._listed, self._learning, seed, self.post)
         self._linked = Linked() if linked is None else linked
         self._parts = Parts(
@@ -78,6 +77,7 @@ class Session:
             self._exporting,
             self._taking,
             self._linked,
+            self._driving,
         )
         self._telling = Telling(
             "Ready: choose a source and record, or train on the samples.", self._hold
@@ -173,6 +173,7 @@ class Session:
 
     def _act(self, command: commands.ActCommand) -> None:
         self._linked.hear(command)
+        self._driving.hear(command)
         match command:
             case commands.Stop():
                 if isinstance(self._activity, Show):
@@ -240,7 +241,7 @@ class Session:
         self._say(words)
 
     def _drive(self, command: commands.DriveCommand) -> None:
-        goes_on = driven(self._activity, self._choices, command)
+        goes_on = self._driving.take(self._activity, self._choices, command)
         if goes_on is not None and goes_on is not self._activity:
             self._finish(stopped=True)
             self._activity = goes_on

@@ -113,3 +113,4 @@ class Snapshot:
     saved_as: str  # the last recording's file
     link: LinkStatus  # the robot beyond the simulator
     driven: DrivenStatus | None  # None while no program drives the robot
+    stopped: bool  # by a Stop: programs' targets do not count until one begins anew

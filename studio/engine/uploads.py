@@ -43,6 +43,10 @@ class Uploads:
         with path.open("ab") as file:
             file.write(content)
 
+    def free(self, path: Path) -> None:
+        """Delete a file that `keep` has begun."""
+        path.unlink(missing_ok=True)
+
     def close(self) -> None:
         """Delete all of them."""
         self._folder.cleanup()

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from studio.engine.hand_strip import HandRun
 from studio.engine.reading import ReadingStatus
@@ -31,3 +32,4 @@ class WhoStatus:
     # Who is there, and in how many frames of the chosen file; None: a live stream has no end.
     bodies: tuple[tuple[str, int | None], ...] = ()
     body: str | None = None  # the one that was chosen, live the one followed; None: the nearest
+    files: frozenset[Path] = frozenset()  # that are the source, are being read, or wait for it

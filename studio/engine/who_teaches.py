@@ -178,6 +178,7 @@ class WhoTeaches:
             strip=self._strip.runs if isinstance(activity, Follow) else (),
             bodies=bodies,
             body=body,
+            files=self._reading.files | ({self._file.path} if self._file else set()),
         )
 
     def close(self) -> None:

@@ -135,7 +135,7 @@ class Page:
             self.steps = Steps(gui, (*_STEP_OF.values(), EXPORT), self._may_act)
         with self.steps["1 Source"]:
             self._invitation = TourInvitation(gui, self._begin)
-            source = SourcePanel(gui, post, uploads, arcs)
+            source = SourcePanel(gui, post, uploads, arcs, self._may_act)
         with self.steps["2 Teach"]:
             teach = TeachPanel(gui, post)
         with self.steps["3 Learn"]:

@@ -3,6 +3,9 @@
 Stop and Esc stop it, too; both are always in sight.
 """
 
+from collections.abc import Callable
+from typing import Any
+
 import viser
 
 from studio.engine import commands
@@ -11,17 +14,29 @@ from studio.engine.links.status import FIRST_RATIO, LEAST_RATIO, LinkStatus, Pha
 from studio.engine.snapshot import Snapshot
 from studio.panels import markup
 from studio.panels.inputs import Post, on_choice, show_value
+from studio.panels.synced import Synced
 
 SAFE = "Nobody is near, the desk is clear, the e-stop is at hand"
 _NOT_CONNECTED = "Connect a robot first."
 
 
 class RobotPanel:
-    """A part of the first step."""
+    """A part of the first step.
 
-    def __init__(self, gui: viser.GuiApi, post: Post) -> None:
-        self._post, self._drawn = post, FIRST_RATIO
+    Parameters
+    ----------
+    gui
+        Of all browsers.
+    post
+        Where people's commands go.
+    may_act
+        Tells whether whoever is heard may act, and says so where not.
+    """
+
+    def __init__(self, gui: viser.GuiApi, post: Post, may_act: Callable[[], bool]) -> None:
+        self._post, self._may_act = post, may_act
         self._address = gui.add_text("Address", "simulated://", hint=EXAMPLES)
+        self._typed = _Written(self._address, may_act)
         self._connect = gui.add_button("Connect", icon=viser.Icon.PLUG_CONNECTED, color="gray")
         self._connect.on_click(lambda _: post(commands.ConnectLink(self._address.value)))
         self._leave = gui.add_button("Let it alone", icon=viser.Icon.PLUG_X, color="gray")
@@ -29,16 +44,17 @@ class RobotPanel:
         self._enable = gui.add_button("Enable its motors", icon=viser.Icon.POWER)
         self._enable.on_click(lambda _: post(commands.EnableLink()))
         self._safe = gui.add_checkbox(SAFE, False)
+        self._ticked = _Written(self._safe, may_act)
         self._start = gui.add_button(
             "Go to the pose on the page, slowly",
             hint="From there it follows whenever the gate is armed or a motion plays",
             icon=viser.Icon.PLAYER_TRACK_NEXT,
         )
         self._start.on_click(lambda _: self._go())
-        self._speed = gui.add_slider(
+        speed = gui.add_slider(
             "% of its top speed", 100 * LEAST_RATIO, 100.0, 5.0, 100 * FIRST_RATIO
         )
-        on_choice(self._speed, lambda: post(commands.SetLinkSpeed(self._speed.value / 100)))
+        self._speed = Synced(speed, lambda: post(commands.SetLinkSpeed(speed.value / 100)))
         self._disable = gui.add_button(
             "Disable: take its power", icon=viser.Icon.POWER, color="gray"
         )
@@ -52,21 +68,46 @@ class RobotPanel:
             (self._connect, why_not_connect(link)),
             (self._leave, why_not_leave(link)),
             (self._enable, why_not_enable(link)),
+            (self._safe, why_not_start(link, is_safe=True)),
             (self._start, why_not_start(link, self._safe.value)),
             (self._disable, why_not_leave(link)),
         )
-        for button, refusal in refusals:
-            button.disabled = bool(refusal)
-        if link.ratio != self._drawn:
-            self._drawn = link.ratio
-            show_value(self._speed, round(100 * link.ratio))
+        for control, refusal in refusals:
+            control.disabled = bool(refusal)
+        if self._safe.disabled and self._safe.value:  # what was confirmed is over
+            self._ticked.write(False)
+        self._speed.show(float(round(100 * link.ratio)))
         reasons = markup.reasons(refusal for _, refusal in refusals)
         self._state.content = described(link) + reasons
 
     def _go(self) -> None:
         """Let it go, and ask for the confirmation anew the next time."""
-        self._post(commands.StartLink(self._safe.value))
-        show_value(self._safe, False)
+        if self._may_act():
+            self._post(commands.StartLink(self._safe.value))
+            self._ticked.write(False)
+
+
+class _Written:
+    """A control whose value stands on the page alone: who only watches does not change it.
+
+    Who controls acts by it, and has to find what it wrote.
+    """
+
+    def __init__(self, control: viser.GuiInputHandle[Any], may_change: Callable[[], bool]) -> None:
+        self._control, self._may_change = control, may_change
+        self._value = control.value
+        on_choice(control, self._changed)
+
+    def write(self, value: object) -> None:
+        """Show another value from now on."""
+        self._value = value
+        show_value(self._control, value)
+
+    def _changed(self) -> None:
+        if self._may_change():
+            self._value = self._control.value
+        else:
+            show_value(self._control, self._value)
 
 
 class RobotLine:

@@ -1,5 +1,6 @@
 """1 Source: who teaches (the puppet, a sample, a file, a live stream), and how."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import viser
@@ -23,7 +24,14 @@ from studio.panels.settings import SettingsPanel
 class SourcePanel:
     """The first step."""
 
-    def __init__(self, gui: viser.GuiApi, post: Post, uploads: Uploads, arcs: ArcsView) -> None:
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        post: Post,
+        uploads: Uploads,
+        arcs: ArcsView,
+        may_act: Callable[[], bool],
+    ) -> None:
         self._post = post
         self._now = gui.add_html("")
         self._reading = ReadingPanel(gui, post)
@@ -41,7 +49,7 @@ class SourcePanel:
         with gui.add_folder("Your arm's six angles", expand_by_default=False):
             self._angles = ArmAnglesPanel(gui, arcs)
         with gui.add_folder("A robot beyond the simulator", expand_by_default=False):
-            self._robot = RobotPanel(gui, post)
+            self._robot = RobotPanel(gui, post, may_act)
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""

@@ -16,8 +16,9 @@ from pathlib import Path
 from typing import Literal, TypeVar
 
 from studio.remote import asked, told
+from studio.remote.arriving import is_there, not_there
 from studio.remote.asked import PART, Asked
-from studio.remote.commands import Command, SetJointTarget
+from studio.remote.commands import BeginDriving, Command, SetJointTarget
 from studio.remote.errors import LateError, RemoteError
 from studio.remote.files import Uploaded
 from studio.remote.link import STREAMS, Frame, Link
@@ -29,7 +30,6 @@ URL = "ws://127.0.0.1:8766"
 TIMEOUT = 5.0  # [s]
 _LOOK_EVERY = 0.05  # [s] whether something has come to pass
 _SEND_EVERY = 1.0 / 30.0  # [s] a target, while it is waited for
-_CLOSE_ENOUGH = 0.02  # [rad]
 _AT_ONCE = 5  # ticks between two looks
 
 
@@ -176,17 +176,19 @@ class Studio:
     def move_to(self, targets: Mapping[str, float], timeout: float = 20.0) -> told.JointStates:
         """Let joints go somewhere, slowly at first; return where all are once they are there.
 
+        It begins to drive, also after a Stop. One that comes meanwhile ends it: RefusedError.
         Limits and collision guard may keep them from it: then LateError says so.
         """
+        self.do(BeginDriving())
         end = time.monotonic() + timeout
         now = self.joint_states()
         while time.monotonic() < end:
             self.set_joint_target(targets)
             time.sleep(_SEND_EVERY)
             now = self.joint_states()
-            if _is_there(self._link, targets, now):
+            if is_there(self._link, targets, now):
                 return now
-        raise LateError(_not_there(self._link, now))
+        raise LateError(not_there(self._link, now))
 
     # Non-blocking.
 
@@ -195,7 +197,11 @@ class Studio:
         self._link.send(asked.Do(command))
 
     def set_joint_target(self, targets: Mapping[str, float], closed: bool | None = None) -> None:
-        """Let joints [rad] go somewhere from the next tick on; the newest call wins."""
+        """Let joints [rad] go somewhere from the next tick on; the newest call wins.
+
+        After a Stop, by anybody, that is refused (see `complaints`) until `move_to`, or
+        ``do(commands.BeginDriving())``.
+        """
         self._link.send(SetJointTarget(dict(targets), closed))
 
     # Streaming.
@@ -203,12 +209,14 @@ class Studio:
     def stream(
         self, kind: type[_Frame], rate: float = asked.FASTEST, timeout: float | None = None
     ) -> Iterator[_Frame]:
-        """Subscribe at once; then yield what comes, until the loop over it ends.
+        """Subscribe at once; then yield what comes from then on, until the loop over it ends.
 
+        Of each kind one stream is read at a time: the next one ends it, in words (LostError).
         ``kind`` is JointStates, Gate, Block or Snapshot, ``rate`` [Hz] of the session's time.
         """
         stream = STREAMS[kind]
-        frames = self._link.frames(stream)
+        self._ask(lambda n: asked.Unsubscribe(n, stream), told.Done)  # so that no old frame comes
+        frames = self._link.begin(stream)
         self._ask(lambda n: asked.Subscribe(n, stream, rate), told.Done)
         patience = self._link.timeout if timeout is None else timeout
 
@@ -219,8 +227,9 @@ class Studio:
                     if isinstance(frame, kind):
                         yield frame
             finally:
-                with suppress(RemoteError):
-                    self._ask(lambda n: asked.Unsubscribe(n, stream), told.Done)
+                if self._link.is_newest(stream, frames):
+                    with suppress(RemoteError):
+                        self._ask(lambda n: asked.Unsubscribe(n, stream), told.Done)
 
         return each()
 
@@ -267,11 +276,12 @@ class Clock:
 
     def move_to(self, targets: Mapping[str, float], most: int = 600) -> told.Stepped:
         """Let joints go somewhere as `Studio.move_to` does, in ``most`` ticks."""
+        self._studio.do(BeginDriving())
         for _ in range(most):
             self._link.send(SetJointTarget(dict(targets)))
-            if _is_there(self._link, targets, self.step().state):
+            if is_there(self._link, targets, self.step().state):
                 return self.now
-        raise LateError(_not_there(self._link, self.now.state))
+        raise LateError(not_there(self._link, self.now.state))
 
     def wait_for(self, condition: Callable[[Snapshot], bool], timeout: float = 60.0) -> Snapshot:
         """Step until everything is as wanted, and return the snapshot that is."""
@@ -281,15 +291,3 @@ class Clock:
                 raise LateError(f"what was waited for has not come in {timeout:g} s")
             self.step(_AT_ONCE)
         return now
-
-
-def _is_there(link: Link, targets: Mapping[str, float], now: told.JointStates) -> bool:
-    """Tell whether a robot that is driven has come to its targets, and follows from there."""
-    joints = link.welcome.joints
-    gaps = (abs(now.positions[joints.index(joint)] - angle) for joint, angle in targets.items())
-    return now.driven is not None and now.driven.follows and max(gaps, default=0.0) < _CLOSE_ENOUGH
-
-
-def _not_there(link: Link, now: told.JointStates) -> str:
-    why = now.guarded or "".join(list(link.complaints)[-1:]) or "it takes too long"
-    return f"the robot does not come there: {why}"

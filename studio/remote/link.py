@@ -37,6 +37,7 @@ STREAMS: dict[type[Any], Stream] = {
 }
 _LARGEST = 64 * 2**20  # [bytes] of a message
 _KEPT = 90  # frames of a stream that nobody has looked at yet: three seconds
+_BEGUN_ANEW = "this program has begun to read the stream anew: of one kind there is one at a time"
 _DECODER = msgspec.json.Decoder(Told)
 
 
@@ -147,10 +148,24 @@ class Link:
             raise LostError(self._lost or f"expected {kind.__name__}, heard {answer!r:.80}")
         return answer
 
-    def frames(self, stream: Stream) -> Frames:
-        """Return what comes of a stream."""
+    def begin(self, stream: Stream) -> Frames:
+        """Return what comes of a stream from now on; whoever read it before reads no more.
+
+        To be called while it is not subscribed to, so that no older frame is on its way.
+        """
+        frames = Frames()
         with self._lock:
-            return self._frames.setdefault(stream, Frames())
+            before, self._frames[stream] = self._frames.get(stream), frames
+        if before is not None:
+            before.end(_BEGUN_ANEW)
+        if self._lost:  # since when nobody is told any more
+            frames.end(self._lost)
+        return frames
+
+    def is_newest(self, stream: Stream, frames: Frames) -> bool:
+        """Tell whether nobody has begun to read the stream anew since then."""
+        with self._lock:
+            return self._frames.get(stream) is frames
 
     def close(self) -> None:
         """End the connection."""
@@ -185,7 +200,10 @@ class Link:
             if waiting is not None:
                 waiting.put(told)
         elif type(told) in STREAMS:
-            self.frames(STREAMS[type(told)]).add(told)  # type: ignore[arg-type] # one of these
+            with self._lock:
+                frames = self._frames.get(STREAMS[type(told)])
+            if frames is not None:
+                frames.add(told)  # type: ignore[arg-type] # one of these
         elif isinstance(told, Welcome):
             self._welcome.put(told)
         elif isinstance(told, Error):

@@ -66,6 +66,7 @@ class Snapshot(Message, frozen=True):
     recorded: int
     saved_as: str
     driven: Driven | None
+    stopped: bool
     scene: Scene
     tryout: Tryout
     link: LinkedRobot

@@ -49,6 +49,7 @@ class JointStates(Message, frozen=True):
     mode: str
     guarded: str  # what the collision guard keeps apart, in words
     driven: Driven | None
+    stopped: bool  # by a Stop: no target counts until `BeginDriving`
     id: int | None = None
     missed: int = 0
 

@@ -140,10 +140,34 @@ def test_whoever_teaches_is_not_driven_away(session: Session, command) -> None:
 
 def test_stop_and_let_go_end_it_at_once(session: Session) -> None:
     for command, words in ((commands.Stop(), "Stopped."), (commands.LetGo("Gone."), "Gone. Stop")):
+        do(session, commands.BeginDriving())
         driven_for(session, 3, left_s0=1.0)
         now = do(session, command)
         assert now.mode is Mode.IDLE
         assert now.message.text.startswith(words)
+
+
+def test_after_a_stop_nothing_but_to_begin_anew_lets_targets_count(session: Session) -> None:
+    driven_for(session, 3, left_s0=1.0)
+    do(session, commands.Stop(), SetJointTarget({"left_s0": 1.0}))
+    for other in (commands.PutBlockBack(), commands.LetGo("Gone."), commands.UseDemonstrator()):
+        do(session, other)
+        now = driven_for(session, 5, left_s0=1.0)[-1]
+        assert (now.mode, now.driven, now.stopped) == (Mode.IDLE, None, True)
+    stands = now.world.joint_positions[S0]
+    now = do(session, commands.BeginDriving())
+    assert (now.mode, now.stopped) == (Mode.IDLE, False)
+    assert now.world.joint_positions[S0] == pytest.approx(stands, abs=1e-3)
+    assert driven_for(session, 1, left_s0=1.0)[-1].mode is Mode.DRIVEN
+    assert not do(session, commands.BeginDriving()).message.is_error  # as often as one likes
+    assert session.snapshot.mode is Mode.DRIVEN
+
+
+def test_while_somebody_teaches_there_is_nothing_to_begin(session: Session) -> None:
+    do(session, commands.Stop(), commands.UseDemonstrator(), commands.Watch())
+    now = do(session, commands.BeginDriving())
+    assert "Stop first" in now.message.text
+    assert now.stopped
 
 
 def test_what_is_chosen_stays_meanwhile_and_a_fresh_world_ends_it(session: Session) -> None:

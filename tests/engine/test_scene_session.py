@@ -6,11 +6,13 @@ import pytest
 from studio.engine import commands
 from studio.engine.choices import Choices
 from studio.engine.hands import PLAIN, HandOptions
+from studio.engine.resources import resource_root, samples_folder
 from studio.engine.scene import Scene
 from studio.engine.scene_file import read_scene, scene_names
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.teaching import LearnerSettings
+from tests.engine.sessions import read
 
 
 @pytest.fixture
@@ -134,3 +136,23 @@ def test_while_somebody_teaches_the_scene_stays(session):
     refused = do(session, commands.ChooseScene("two-in-order"))
     assert refused.message.is_error
     assert refused.choices.scene == Scene()
+
+
+def test_a_file_of_the_same_name_is_another_scene(session, tmp_path):
+    """A user's push-down.toml, on a smoother desk: nothing of the shipped one is learned for it."""
+    path = tmp_path / "push-down.toml"
+    shipped = (resource_root() / "urdf" / "scenes" / path.name).read_text()
+    path.write_text(shipped.replace("friction = 0.8", "friction = 0.7"))
+    (sample, *_) = sorted(samples_folder().glob("*.mcap"))
+    read(session, commands.UseFile(sample))
+    now = do(session, commands.ChooseScene(str(path)))
+    (entry,) = now.entries
+    assert (now.choices.scene.name, now.choices.scene.desk.friction) == ("push-down", 0.7)
+    assert entry.is_of("left", "exact")
+    assert not entry.is_of("left", "exact", now.choices.scene)
+    refused = do(session, commands.Train(LearnerSettings("rbf", 12)))
+    assert refused.message.text.startswith(
+        "No demonstration by left arm with the exact mapping in the scene push-down (another one)"
+    )
+    back = do(session, commands.ChooseScene("push-down"), commands.Train(LearnerSettings("rbf", 9)))
+    assert not back.message.is_error

@@ -43,6 +43,7 @@ WHY_NOT = {  # for a control's label, what its reason is by the snapshot
     "Let it alone": lambda now: robot_link.why_not_leave(now.link),
     "Enable its motors": lambda now: robot_link.why_not_enable(now.link),
     "Go to the pose on the page, slowly": lambda now: robot_link.why_not_start(now.link, False),
+    robot_link.SAFE: lambda now: robot_link.why_not_start(now.link, True),
     "Disable: take its power": lambda now: robot_link.why_not_leave(now.link),
     "Put the block back": readiness.why_not_put_back,
     "Keep this one to compare": readiness.why_not_keep,

@@ -9,7 +9,9 @@ import viser
 from studio.engine import commands
 from studio.engine.links.status import LinkStatus, Phase
 from studio.engine.snapshot import Snapshot
+from studio.panels import robot_link
 from studio.panels.robot_link import RobotLine, RobotPanel, described
+from tests.panels.people import use
 
 URL = "rosbridge://baxter:9090"
 HEARD = LinkStatus(url=URL, is_connected=True, words="Not enabled.")
@@ -36,7 +38,9 @@ def server() -> Iterator[viser.ViserServer]:
 class Shown:
     def __init__(self, gui: viser.GuiApi, start: Snapshot) -> None:
         self.posted: list[commands.Command] = []
-        self.panel, self.start = RobotPanel(gui, self.posted.append), start
+        self.controls = True  # whoever acts
+        self.panel = RobotPanel(gui, self.posted.append, lambda: self.controls)
+        self.start = start
 
     def draw(self, state: str, is_safe: bool = False) -> set[str]:
         """Draw a state; return the names of the buttons that can be pressed."""
@@ -44,6 +48,10 @@ class Shown:
         self.panel.draw(replace(self.start, link=STATES[state]))
         buttons = ("_connect", "_leave", "_enable", "_start", "_disable")
         return {name[1:] for name in buttons if not getattr(self.panel, name).disabled}
+
+    @property
+    def is_safe(self) -> bool:
+        return self.panel._safe.value
 
     def press(self, name: str) -> None:
         for act in getattr(self.panel, f"_{name}")._impl.update_cb:
@@ -98,6 +106,44 @@ def test_each_first_move_is_confirmed_by_itself(shown: Shown) -> None:
     shown.press("start")
     shown.press("start")
     assert shown.posted == [commands.StartLink(confirmed=True), commands.StartLink()]
+
+
+def test_the_box_waits_for_an_enabled_robot_and_says_so(shown: Shown) -> None:
+    for state, link in STATES.items():
+        shown.draw(state, is_safe=True)
+        can_be_ticked = state in ("waiting", "ready")
+        assert shown.panel._safe.disabled is not can_be_ticked
+        assert shown.is_safe is can_be_ticked  # what was confirmed before is over
+        if not can_be_ticked:
+            assert robot_link.why_not_start(link, is_safe=True) in shown.words
+
+
+def test_who_only_watches_confirms_nothing_and_takes_nothing_back(shown: Shown) -> None:
+    shown.draw("waiting")
+    shown.controls = False  # and is told so, as about any other control: tests/panels/test_control
+    use(shown.panel._safe, True)
+    use(shown.panel._address, "rosbridge://elsewhere:9090")
+    assert (shown.is_safe, shown.panel._address.value) == (False, "simulated://")
+    shown.controls = True
+    use(shown.panel._safe, True)
+    use(shown.panel._address, URL)
+    shown.controls = False
+    use(shown.panel._safe, False)
+    use(shown.panel._address, "")
+    shown.press("start")
+    assert (shown.is_safe, shown.panel._address.value, shown.posted) == (True, URL, [])
+    shown.controls = True
+    shown.press("start")
+    assert (shown.is_safe, shown.posted) == (False, [commands.StartLink(confirmed=True)])
+
+
+def test_a_speed_that_was_refused_is_not_shown_for_long(shown: Shown) -> None:
+    shown.draw("waiting")
+    use(shown.panel._speed.control, 80.0)
+    for _ in range(12):
+        shown.draw("waiting")
+    assert shown.panel._speed.control.value == pytest.approx(30.0)
+    assert shown.posted == [commands.SetLinkSpeed(0.8)]
 
 
 def test_the_line_is_in_sight_only_with_a_robot(server, lesson) -> None:

@@ -19,7 +19,7 @@ def test_the_source_in_words(lesson) -> None:
 def test_every_state_is_drawn(lesson) -> None:
     server, kept = viser.ViserServer(host="127.0.0.1", port=0, verbose=False), Uploads()
     try:
-        panel = SourcePanel(server.gui, lambda _: None, kept, ArcsView(server.scene))
+        panel = SourcePanel(server.gui, lambda _: None, kept, ArcsView(server.scene), lambda: True)
         for now in lesson.values():
             panel.draw(now)
             assert not panel._sensor.visible

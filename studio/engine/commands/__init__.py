@@ -21,7 +21,7 @@ from studio.engine.commands.compare import (
     PutBlockBack,
     ShowLeg,
 )
-from studio.engine.commands.drive import DriveCommand, SetJointTarget
+from studio.engine.commands.drive import BeginDriving, DriveCommand, SetJointTarget
 from studio.engine.commands.export import (
     CancelExport,
     Export,
@@ -106,6 +106,7 @@ Command = (
 __all__ = [
     "ActCommand",
     "AddFrom",
+    "BeginDriving",
     "BeginTake",
     "Calibrate",
     "CancelExport",

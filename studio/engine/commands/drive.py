@@ -20,4 +20,12 @@ class SetJointTarget:
         return replace(self, targets={**self.targets, **newer.targets}, closed=closed)
 
 
-DriveCommand = SetJointTarget
+@dataclass(frozen=True)
+class BeginDriving:
+    """Let joint targets count again: after a `Stop` none does, until this is asked for.
+
+    The robot goes nowhere by it, only with the next target.
+    """
+
+
+DriveCommand = BeginDriving | SetJointTarget

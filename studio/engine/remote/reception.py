@@ -128,6 +128,7 @@ class Reception:
         """Take note that a program has gone: time goes on, and Baxter is let go."""
         self._clock.end("", guest)
         self._guests.remove(guest)
+        self._requests.leave(guest)
         if self._seat.leave(guest.name):
             self._requests.let_go(CLOSED)
 
@@ -145,8 +146,9 @@ class Reception:
                         guest.outbox.offer(stream, frame)
 
     def look(self) -> None:
-        """Do what is due by now: pass the seat on, tell roles; to be called ten times a second."""
+        """Do what is due by now, ten times a second: pass the seat on, tell roles, free files."""
         self._roles.look(self._guests)
+        self._requests.tidy()
         owner = self._clock.owner
         if owner is not None and not self._roles.controls(owner):
             self._clock.end(SEAT_LOST)

@@ -5,7 +5,9 @@ Whoever controls may act, everybody may read, and stop the robot.
 
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from typing import Any, Protocol
+from weakref import WeakSet
 
 import msgspec
 
@@ -24,9 +26,13 @@ from studio.engine.scene_file import scene_names
 from studio.engine.snapshot import Message, Mode, Snapshot
 from studio.remote import asked as wire
 from studio.remote import told
-from studio.remote.commands import DisableLink, SetJointTarget, Stop, StopLink
+from studio.remote.commands import BeginDriving, DisableLink, SetJointTarget, Stop, StopLink
 
 LET_GO = "The program that controlled Baxter has let go of it."
+STOPPED = (
+    "Baxter was stopped, and no joint target counts any more: look why, then send the command "
+    "begin_driving"
+)
 # A program that steps faster than real time would move it faster than its limits allow.
 _REAL_TIME = "a robot beyond the simulator goes by real time"
 _STOPPING = (Stop, StopLink, DisableLink)  # by anybody, as on the page
@@ -72,6 +78,8 @@ class Requests:
     ) -> None:
         self._session, self._roles, self._clock, self._shelf = session, roles, clock, shelf
         self._later, self._tick, self._refuse = later, tick, refuse
+        self._told_stopped: WeakSet[Guest] = WeakSet()  # since the last Stop
+        self._left: list[Guest] = []  # whose files are not freed yet
         self._serving: dict[type[Any], Callable[[Guest, Any], None]] = {
             SetJointTarget: self._target,
             wire.Do: self._do,
@@ -108,15 +116,39 @@ class Requests:
 
     def is_linked(self) -> bool:
         """Tell whether a robot beyond the simulator is linked."""
+        now = self._now()
+        return now is not None and bool(now.link.url)
+
+    def leave(self, guest: Guest) -> None:
+        """Take note that a guest has gone: its files go as soon as nothing needs them."""
+        guest.outbox.clear()
+        self._left.append(guest)
+        self.tidy()
+
+    def tidy(self) -> None:
+        """Free the files of those who have left, but for those that the session has to read."""
+        now = self._now() if self._left else None
+        if now is not None:
+            needed = _needed(now)
+            self._left = [
+                guest
+                for guest in self._left
+                if guest.waiting or not self._shelf.free(guest.name, needed)
+            ]
+
+    def _now(self) -> Snapshot | None:
+        """Return the newest snapshot; None where the engine has ended before its programs."""
         try:
-            return bool(self._session().snapshot.link.url)
-        except StudioError:  # the engine has ended before its programs
-            return False
+            return self._session().snapshot
+        except StudioError:
+            return None
 
     def _target(self, guest: Guest, asked: SetJointTarget) -> None:
         self._roles.require(guest)
         _require_joints(asked)
         session = self._session()
+        if self._is_stopped(guest):
+            return
         if session.snapshot.mode not in _CAN_BE_DRIVEN:
             raise StudioError("somebody teaches, or something plays: send stop first")
         command = commands.SetJointTarget(asked.targets, asked.closed)
@@ -125,17 +157,30 @@ class Requests:
         session.post(command, guest.answer)
 
     def _targeted(self, guest: Guest, said: Message | None) -> None:
-        if said is not None and said.is_error:
+        if not self._is_stopped(guest) and said is not None and said.is_error:
             self._refuse(guest, None, said.text)
+
+    def _is_stopped(self, guest: Guest) -> bool:
+        """Tell whether joint targets do not count; a guest that sends some is told so once."""
+        now = self._now()
+        if now is None or not now.stopped:
+            self._told_stopped.discard(guest)
+            return False
+        if guest not in self._told_stopped:
+            self._told_stopped.add(guest)
+            guest.outbox.answer(told.Error(words=STOPPED))
+        return True
 
     def _do(self, guest: Guest, asked: wire.Do) -> None:
         self._roles.require(guest, anybody=isinstance(asked.command, _STOPPING))
         if guest.waiting >= MOST_WAITING:
             raise StudioError(f"{MOST_WAITING} commands wait for a tick: wait for their answers")
-        if isinstance(asked.command, SetJointTarget):
-            _require_joints(asked.command)
         session = self._session()
         now = session.snapshot
+        if isinstance(asked.command, SetJointTarget):
+            _require_joints(asked.command)
+            if now.stopped:
+                raise StudioError(STOPPED)
         command = as_command(asked.command, lambda place: self._shelf.find(guest.name, place, now))
         if isinstance(command, commands.ConnectLink) and self._clock.owner is not None:
             raise StudioError(f"{_REAL_TIME}: give the clock back first, then connect it")
@@ -144,13 +189,18 @@ class Requests:
                 f"there is no scene {command.scene!r:.40}; there are {', '.join(scene_names())}"
             )
         guest.waiting += 1
-        session.post(command, partial(self._on_thread, partial(self._done, guest, asked.id)))
+        session.post(command, partial(self._on_thread, partial(self._done, guest, asked)))
         self._clock.nudge()
 
-    def _done(self, guest: Guest, number: int | None, said: Message | None) -> None:
+    def _done(self, guest: Guest, asked: wire.Do, said: Message | None) -> None:
         guest.waiting -= 1
+        number, now = asked.id, self._now()
+        if isinstance(asked.command, BeginDriving):
+            self._told_stopped.clear()
         if said is not None and said.is_error:
             self._refuse(guest, number, said.text)
+        elif isinstance(asked.command, SetJointTarget) and now is not None and now.stopped:
+            self._refuse(guest, number, STOPPED)  # by a Stop before it, in the same tick
         elif number is not None:
             words = "" if said is None else said.text
             guest.outbox.answer(told.Done(id=number, words=readable(words)))
@@ -161,6 +211,7 @@ class Requests:
 
     def _subscribe(self, guest: Guest, asked: wire.Subscribe) -> None:
         guest.streams[asked.stream] = max(1, round(CONTROL_RATE / asked.rate))
+        guest.outbox.forget(asked.stream)  # what comes after the answer is of this subscription
         guest.outbox.answer(told.Done(id=asked.id))
 
     def _unsubscribe(self, guest: Guest, asked: wire.Unsubscribe) -> None:
@@ -199,6 +250,12 @@ class Requests:
 
     def _on_thread(self, act: Callable[[Message | None], None], said: Message | None) -> None:
         self._later(partial(act, said))
+
+
+def _needed(now: Snapshot) -> set[Path]:
+    """Return the files that a session reads, is about to read, or may read again."""
+    opened_from = now.export.opened_from
+    return {*now.who.files, *(() if opened_from is None else (opened_from,))}
 
 
 def _require_joints(asked: SetJointTarget) -> None:

@@ -6,7 +6,6 @@ import logging
 from collections.abc import Callable
 from functools import partial
 
-import msgspec
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
@@ -20,7 +19,6 @@ from studio.engine.remote.reading import LARGEST_MESSAGE
 from studio.engine.remote.reception import LeaveError, Reception
 from studio.engine.seat import Seat
 from studio.engine.snapshot import Snapshot
-from studio.remote.told import Told
 
 _LOG = logging.getLogger(__name__)
 REMOTE_PORT = 8766  # where programs reach the studio, unless told otherwise
@@ -135,8 +133,8 @@ class RemoteServer:
         try:
             while await waiting.wait():
                 waiting.clear()
-                while (told := guest.outbox.next()) is not None:
-                    await self._tell(connection, told)
+                while (text := guest.outbox.next()) is not None:
+                    await self._tell(connection, text)
         except ConnectionClosed:
             pass
         except TimeoutError:
@@ -145,8 +143,7 @@ class RemoteServer:
             _LOG.exception("an answer to a program cannot be sent")
             await connection.close(CloseCode.INTERNAL_ERROR, "the studio has failed")
 
-    async def _tell(self, connection: ServerConnection, told: Told) -> None:
-        text = msgspec.json.encode(told).decode()
+    async def _tell(self, connection: ServerConnection, text: str) -> None:
         if self._overhear is not None:
             self._overhear("told", text)
         async with asyncio.timeout(_SEND_WITHIN):

@@ -4,6 +4,7 @@ A name is compared with those of files that the studio knows, and is never a way
 """
 
 import threading
+from collections.abc import Set
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +16,8 @@ from studio.remote.asked import PART, FetchFile, Upload
 from studio.remote.files import OnStudio, Place, Recorded, Sample, Uploaded
 from studio.remote.told import FilePart, UploadTaken
 
-MOST_KEPT = 16 * LARGEST  # [bytes] of all uploads together
+MOST_KEPT = 4 * LARGEST  # [bytes] of all uploads together
+_LEAST = 4096  # [bytes] that the smallest file counts for: what it takes of a disk
 
 
 @dataclass
@@ -25,6 +27,11 @@ class _Kept:
     path: Path
     size: int = 0  # [bytes]
 
+    @property
+    def weight(self) -> int:
+        """What it takes of the studio's disk [bytes]."""
+        return max(self.size, _LEAST)
+
 
 class Shelf:
     """See the module; `close` deletes what was uploaded."""
@@ -32,6 +39,7 @@ class Shelf:
     def __init__(self) -> None:
         self._uploads: Uploads | None = None  # its folder is there from the first upload on
         self._kept: dict[str, _Kept] = {}
+        self.size = 0  # [bytes] that all of them take
         self._lock = threading.Lock()
 
     def take(self, owner: str, asked: Upload) -> UploadTaken:
@@ -45,22 +53,38 @@ class Shelf:
             Where it goes on with a file that this program has not begun.
         """
         with self._lock:
-            total = sum(each.size for each in self._kept.values()) + len(asked.content)
-            if total > MOST_KEPT:
+            if self.size + max(len(asked.content), _LEAST) > MOST_KEPT:
                 raise FileError(
                     f"{shown_name(asked.name)}: the studio keeps {MOST_KEPT // 2**20} MB of "
-                    "uploads, and has them: start it anew"
+                    "programs' uploads, and has them: a program's are freed when it leaves"
                 )
             self._uploads = self._uploads or Uploads()
             if asked.upload is None:
                 path = self._uploads.keep(asked.name, asked.content)
-                kept = _Kept(owner, shown_name(asked.name), path, len(asked.content))
+                kept, before = _Kept(owner, shown_name(asked.name), path), 0
                 self._kept[path.name] = kept
-                return UploadTaken(id=asked.id, upload=path.name, size=kept.size)
-            kept = self._of(owner, asked.upload)
-            self._uploads.add(kept.name, kept.path, asked.content)
+            else:
+                kept = self._of(owner, asked.upload)
+                self._uploads.add(kept.name, kept.path, asked.content)
+                before = kept.weight
             kept.size += len(asked.content)
-            return UploadTaken(id=asked.id, upload=asked.upload, size=kept.size)
+            self.size += kept.weight - before
+            return UploadTaken(id=asked.id, upload=kept.path.name, size=kept.size)
+
+    def free(self, owner: str, needed: Set[Path]) -> bool:
+        """Delete what a program has uploaded, but for ``needed`` files; tell whether that is all.
+
+        A recording on the list is in memory as a whole, and needs no file.
+        """
+        with self._lock:
+            mine = [name for name, kept in self._kept.items() if kept.owner == owner]
+            spare = [name for name in mine if self._kept[name].path not in needed]
+            for name in spare:
+                kept = self._kept.pop(name)
+                self.size -= kept.weight
+                if self._uploads is not None:
+                    self._uploads.free(kept.path)
+            return len(spare) == len(mine)
 
     def find(self, owner: str, place: Place, now: Snapshot) -> tuple[Path, str]:
         """Return where a file is that a program names, and what people call it.

@@ -28,6 +28,7 @@ def joint_states(now: Snapshot, tick: int) -> JointStates:
         mode=now.mode.value,
         guarded=now.guarded,
         driven=None if now.driven is None else as_message(place.Driven, now.driven, {}),
+        stopped=now.stopped,
     )
 
 

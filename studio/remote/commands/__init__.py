@@ -19,7 +19,7 @@ from studio.remote.commands.compare import (
     PutBlockBack,
     ShowLeg,
 )
-from studio.remote.commands.drive import SetJointTarget
+from studio.remote.commands.drive import BeginDriving, SetJointTarget
 from studio.remote.commands.export import CancelExport, Export, OpenSession
 from studio.remote.commands.learn import (
     CancelWork,
@@ -78,6 +78,7 @@ from studio.remote.commands.timeline import (
 
 Command = (
     AddFrom
+    | BeginDriving
     | BeginTake
     | Calibrate
     | CancelExport
@@ -143,6 +144,7 @@ Command = (
 
 __all__ = [
     "AddFrom",
+    "BeginDriving",
     "BeginTake",
     "Calibrate",
     "Calibration",

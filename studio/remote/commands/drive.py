@@ -7,6 +7,13 @@ import msgspec
 from studio.remote.message import Message, Text
 
 
+class BeginDriving(Message, frozen=True):
+    """Let joint targets count again: after a `Stop` none does, until this is asked for.
+
+    The robot goes nowhere by it, only with the next target.
+    """
+
+
 class SetJointTarget(Message, frozen=True):
     """Let joints go somewhere, through limits and collision guard; the robot holds without news.
 

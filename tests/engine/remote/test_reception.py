@@ -8,6 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from studio.engine import commands
+from studio.engine.remote import outbox
 from studio.engine.remote.guest import FLOOD, MOST_UNREADABLE, MOST_WAITING
 from studio.engine.remote.outbox import MOST_ANSWERS
 from studio.engine.remote.reception import CLOSED, LeaveError
@@ -216,6 +217,27 @@ def test_floods_and_garbage_are_sent_away(hall: Hall) -> None:
         with pytest.raises(LeaveError, match=words):
             hall.reception.receive(guest, message)
     assert all(each["type"] == "error" for each in hall.told(babbling)[1:])
+
+
+def test_who_asks_for_much_and_reads_nothing_is_sent_away_and_nobody_else(
+    hall: Hall, monkeypatch
+) -> None:
+    """Far below the number of answers that may lie, by their size alone."""
+    monkeypatch.setattr(outbox, "MOST_BYTES", 100_000)
+    deaf, reading = hall.enter(), hall.enter()
+    asked = {"type": "get", "id": 1, "what": "snapshot"}
+    answers = 0
+    while not deaf.outbox.is_full:
+        hall.reception.receive(deaf, json.dumps(asked))
+        answers += 1
+        assert hall.ask(reading, asked)[-1]["type"] == "snapshot"
+    with pytest.raises(LeaveError, match="does not read its answers"):
+        hall.reception.receive(deaf, json.dumps(asked))
+    assert 2 < answers < MOST_ANSWERS
+    assert deaf.outbox._size < 2 * 100_000
+    hall.reception.leave(deaf)
+    hall.tick()
+    assert hall.ask(reading, asked)[-1]["type"] == "snapshot"
 
 
 def test_one_has_the_clock_at_a_time(hall: Hall) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.engine.remote.receiving import Hall, open_hall
-from tests.engine.sessions import PATIENCE
+from tests.remote.house import PATIENCE
 
 LEARNER = {"name": "rbf", "neurons": 12}
 EVERY = 5  # ticks between two snapshots that are told
@@ -91,6 +91,7 @@ def test_at_every_stage(hall: Hall) -> None:
     visit.do("calibrate")
     visit.do("stop")
     visit.do("remove", number=1)
+    visit.do("begin_driving")
     hall.ask(visit.guest, {"type": "set_joint_target", "targets": {"left_s0": 0.1}})
     visit.tick()
     for path in (
