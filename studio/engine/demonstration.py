@@ -167,9 +167,8 @@ class DemonstrationSet:
                     f"mapping, {first.name} with {in_words(first.arms)} and the {first.mapping} "
                     "mapping: learn from one kind at a time"
                 )
-            if other.scene.as_told != first.scene.as_told:
-                alike = other.scene.name == first.scene.name
-                where = "another of that name" if alike else first.scene.name
+            if not other.scene.is_same_as(first.scene):
+                where = first.scene.name_beside(other.scene)
                 raise StudioError(
                     f"{other.name} was taught in the scene {other.scene.name}, {first.name} in "
                     f"{where}: learn from one scene at a time"

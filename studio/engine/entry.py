@@ -13,7 +13,7 @@ from studio.engine.quality import Flag
 from studio.engine.recording import Recording
 from studio.engine.retarget import Mapping
 from studio.engine.robot import CONTROL_PERIOD
-from studio.engine.scene import DEFAULT_SCENE
+from studio.engine.scene import USUAL, Scene
 from studio.engine.task_words import TaskWords, task_words
 
 LONGEST_NAME = 60  # characters
@@ -86,15 +86,15 @@ class Entry:
         """Whether anything of the whole was taken off."""
         return len(self.demonstration.times) < len(self.whole.times)
 
-    def is_of(self, arms: Arms, mapping: Mapping, scene: str = DEFAULT_SCENE) -> bool:
+    def is_of(self, arms: Arms, mapping: Mapping, scene: Scene = USUAL) -> bool:
         """Tell whether it was taught with these arms and this mapping, in that scene."""
         shown = self.demonstration
-        return (shown.arms, shown.mapping, shown.scene.name) == (arms, mapping, scene)
+        return (shown.arms, shown.mapping) == (arms, mapping) and shown.scene.is_same_as(scene)
 
     def is_alike(self, other: "Entry") -> bool:
         """Tell whether arms, mapping and scene of both are the same: they may be one motion."""
         shown = other.demonstration
-        return self.is_of(shown.arms, shown.mapping, shown.scene.name)
+        return self.is_of(shown.arms, shown.mapping, shown.scene)
 
     def renamed(self, name: str) -> "Entry":
         """Return it under another name; raise StudioError where that cannot be shown in a line."""

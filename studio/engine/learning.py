@@ -77,7 +77,7 @@ class Learning:
         StudioError
             Where it is impossible, nothing was taught, or something else goes on.
         """
-        kind = choices.arms, choices.mapping, choices.scene.name
+        kind = choices.arms, choices.mapping, choices.scene
         match command:
             case commands.ChooseLearner(settings):
                 self._choose(settings)
@@ -217,7 +217,7 @@ class Learning:
 
     def _shown(self, choices: Choices) -> tuple[FloatArray, ...]:
         """Return what the demonstrations show that are learned from, each (T, D) [rad]."""
-        kind = choices.arms, choices.mapping, choices.scene.name
+        kind = choices.arms, choices.mapping, choices.scene
         fitting = (entry for entry in self._listed.entries if entry.is_of(*kind))
         return tuple(entry.demonstration.sent for entry in fitting if entry.included)
 
@@ -227,10 +227,7 @@ class Learning:
         if self.lesson is not None and self._explained is not self.lesson:
             self._work.start(Explaining(self.lesson))
         elif self._material and self._unchanged > PATIENCE and curve.missing and not curve.note:
-            try:
-                taught = self._listed.taught(choices.arms, choices.mapping, choices.scene.name)
-            except StudioError:
-                return  # two scenes of one name: who asks to learn from them is told
+            taught = self._listed.taught(choices.arms, choices.mapping, choices.scene)
             self._work.start(ErrorCurve(taught, curve.learner, curve.missing))
 
     def _hear(self, report: Report) -> str:

@@ -12,7 +12,7 @@ from studio.engine.errors import NothingTaughtError, StudioError
 from studio.engine.export.material import Take
 from studio.engine.quality import flags_of
 from studio.engine.retarget import Mapping
-from studio.engine.scene import DEFAULT_SCENE
+from studio.engine.scene import USUAL, Scene
 
 
 class Listed:
@@ -101,8 +101,8 @@ class Listed:
         """Return all of the list, as exports take it."""
         return tuple(entry.take for entry in self.entries)
 
-    def taught(self, arms: Arms, mapping: Mapping, scene: str = DEFAULT_SCENE) -> DemonstrationSet:
-        """Return the included demonstrations of these arms and mapping, in the scene of that name.
+    def taught(self, arms: Arms, mapping: Mapping, scene: Scene = USUAL) -> DemonstrationSet:
+        """Return the included demonstrations of these arms and mapping, in that scene.
 
         Raises
         ------
@@ -111,7 +111,7 @@ class Listed:
         """
         listed = [each for each in self.entries if each.is_of(arms, mapping, scene)]
         included = [each.demonstration for each in listed if each.included]
-        where = "" if scene == DEFAULT_SCENE else f" in the scene {scene}"
+        where = "" if scene.is_same_as(USUAL) else f" in the scene {scene.name_beside(USUAL)}"
         what = f"demonstration by {in_words(arms)} with the {mapping} mapping{where}"
         if not listed:
             raise NothingTaughtError(f"No {what}: record one first")

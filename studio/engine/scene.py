@@ -70,6 +70,17 @@ class Scene:
         """The scene for the arms that its file tells it for, so that two can be compared."""
         return self.taught_by("both" if self.both_arms else "left")
 
+    def is_same_as(self, other: "Scene") -> bool:
+        """Tell whether both are one scene, for whichever arms: by all that is in them."""
+        if self.both_arms != other.both_arms:
+            return False
+        return self == other.taught_by(self.arms)
+
+    def name_beside(self, other: "Scene") -> str:
+        """Return its name, told apart from that of another scene of the same name."""
+        is_another = self.name == other.name and not self.is_same_as(other)
+        return f"{self.name} (another one)" if is_another else self.name
+
     @property
     def task_blocks(self) -> tuple[int, ...]:
         """The numbers of the blocks that the task is about, in the order in which it names them."""

@@ -3,13 +3,14 @@
 import tomllib
 from collections.abc import Callable, Iterable
 from functools import cache
+from itertools import chain
 from pathlib import Path
 from typing import Any, TypeVar
 
 from studio.engine.errors import FileError, StudioError
 from studio.engine.resources import resource_root
 from studio.engine.scene import DEFAULT_SCENE, Scene
-from studio.engine.scene_check import check_blocks, check_zones
+from studio.engine.scene_check import Problem, impossible, misplaced, unready
 from studio.engine.scene_parts import Block, Desk, Pair, Triple, Zone
 from studio.engine.skeleton import SIDES, Side
 from studio.engine.success import Condition, Down, InZone, Lifted, Success
@@ -18,6 +19,7 @@ from studio.engine.wrist import WRIST_MODES
 
 SUFFIX = ".toml"
 LARGEST_FILE = 100_000  # bytes
+LONGEST_NAME, LONGEST_WORDS = 60, 300  # characters
 MOST_BLOCKS, MOST_ZONES, MOST_CONDITIONS = 20, 10, 20
 SIDE = Range(0.01, 3.0, "m")
 PLACE = Range(-3.0, 3.0, "m")
@@ -56,21 +58,28 @@ def read_scene(path_or_name: str | Path) -> Scene:
 
 
 def scene_of(table: dict[str, Any], file: str, name: str) -> Scene:
-    """Return the scene that a table of TOML (or of JSON) tells; see `read_scene` for the errors."""
+    """Return the scene that a table of TOML (or of JSON) tells; see `read_scene` for the errors.
+
+    A recording's scene, too, in which people may have put blocks wherever there is room: whether
+    the task can begin like that is asked of files only.
+    """
+    if not name.isprintable() or not 0 < len(name) <= LONGEST_NAME:
+        raise FileError(
+            f"{file!r:.200}: a scene's name, its file's, has 1 to {LONGEST_NAME} characters that "
+            "can be printed: rename it"
+        )
     top = Table(file, "", table)
     both, gripper = top.flag("both_arms", False), top.flag("gripper", False)
-    words, in_order = top.text("words"), top.flag("in_order", False)
+    words, in_order = top.text("words", LONGEST_WORDS), top.flag("in_order", False)
     wrist = next(mode for mode in WRIST_MODES if mode == top.one_of("wrist", WRIST_MODES, "zero"))
     desk = _desk(top.table("desk"))
     blocks = _named(top, "block", _block, MOST_BLOCKS, needed=True)
     zones = _named(top, "zone", _zone, MOST_ZONES, needed=False)
-    check_blocks(file, desk, blocks)
-    check_zones(file, desk, zones)
     listed = _few(top, "success", MOST_CONDITIONS, needed=True)
     conditions = tuple(_condition(each, blocks, zones, both) for each in listed)
     top.end()
     try:
-        return Scene(
+        scene = Scene(
             desk,
             blocks,
             "both" if both else "left",
@@ -84,6 +93,8 @@ def scene_of(table: dict[str, Any], file: str, name: str) -> Scene:
         )
     except StudioError as error:
         raise FileError(f"{file}: {error}") from error
+    _refuse(file, chain(misplaced(scene), impossible(scene)))
+    return scene
 
 
 def table_of(scene: Scene) -> dict[str, Any]:
@@ -143,7 +154,14 @@ def _read(path: Path) -> Scene:
         table = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # also of whole numbers with too many digits
         raise FileError(f"{path}: expected TOML (docs/scenes.md): {error}") from error
-    return scene_of(table, str(path), path.stem)
+    scene = scene_of(table, str(path), path.stem)
+    _refuse(str(path), unready(scene))
+    return scene
+
+
+def _refuse(file: str, problems: Iterable[Problem]) -> None:
+    for problem in problems:
+        raise FileError(f"{file}: {problem.place}: {problem.words}")
 
 
 def _desk(table: Table) -> Desk:
@@ -162,12 +180,13 @@ def _block(table: Table) -> Block:
         _triple(table, "position", PLACE),
         table.number("mass", MASS),
         table.number("friction", FRICTION),
-        table.text("name"),
+        table.text("name", LONGEST_NAME),
     )
 
 
 def _zone(table: Table) -> Zone:
-    return Zone(table.text("name"), _pair(table, "center", PLACE), _pair(table, "size", SIDE))
+    name = table.text("name", LONGEST_NAME)
+    return Zone(name, _pair(table, "center", PLACE), _pair(table, "size", SIDE))
 
 
 def _condition(
@@ -203,7 +222,7 @@ def _told(condition: Condition) -> dict[str, Any]:
 
 def _known(table: Table, what: str, names: list[str]) -> str:
     """Return the name of a block or a zone that there is."""
-    name = table.text(what)
+    name = table.text(what, LONGEST_NAME)
     if name not in names:
         raise table.unknown(what, what, name, names)
     return name

@@ -36,6 +36,16 @@ class Block:
             raise StudioError(f"a block's mass must be positive, not {self.mass!r} kg")
 
     @property
+    def bottom(self) -> float:
+        """The height [m] at which it stands."""
+        return self.position[2] - self.size[2] / 2
+
+    @property
+    def top(self) -> float:
+        """The height [m] on which others stand."""
+        return self.position[2] + self.size[2] / 2
+
+    @property
     def mirrored(self) -> Self:
         """The same on the robot's other side."""
         x, y, z = self.position
@@ -63,6 +73,13 @@ class Desk:
     def top(self) -> float:
         """The height [m] on which blocks stand."""
         return self.position[2] + self.size[2] / 2
+
+    def is_under(self, x: float, y: float, beyond: float = 0.0) -> bool:
+        """Tell whether a point is above the desk, or no more than ``beyond`` [m] beside it."""
+        return all(
+            abs(at - middle) <= side / 2 + beyond
+            for at, middle, side in zip((x, y), self.position, self.size, strict=False)
+        )
 
     @property
     def mirrored(self) -> Self:
@@ -93,6 +110,15 @@ class Zone:
         """The same on the robot's other side."""
         x, y = self.center
         return replace(self, center=(x, -y))
+
+    def overlaps(self, other: "Zone") -> bool:
+        """Tell whether a point can be in both."""
+        return all(
+            abs(a - b) < (wide + long) / 2
+            for a, b, wide, long in zip(
+                self.center, other.center, self.size, other.size, strict=True
+            )
+        )
 
     def outside(self, x: float, y: float) -> float:
         """Return how far [m] a point is outside; 0 within."""

@@ -1,7 +1,7 @@
 """When a scene's task is done: conditions as data. `studio.engine.judge` looks whether they hold.
 
-Each is about one block, which a taught arm has to have touched: what falls or slides by itself
-is nothing that was taught.
+Each is about one block, which a taught arm has to have touched by the time that it falls or comes
+into its zone: what falls or slides by itself is nothing that was taught.
 """
 
 from dataclasses import dataclass
@@ -60,7 +60,8 @@ Condition = Down | InZone | Lifted
 class Success:
     """All of the conditions, in any order or as they are listed.
 
-    In order means: each was first fulfilled after the one before it. At the end all hold.
+    In order means: what each asks for came about, at rest or not, no earlier than for the one
+    before it: two blocks fall in order, whichever rolls on for longer. At the end all hold.
 
     Raises
     ------

@@ -35,11 +35,21 @@ class Table:
     values: Mapping[str, object]
     asked: set[str] = field(default_factory=set)
 
-    def text(self, key: str, default: str | None = None) -> str:
-        """Return a text that is not empty."""
-        value = self._take(key, "a text", default)
+    def text(self, key: str, longest: int) -> str:
+        """Return a text of one line that is not empty, of ``longest`` characters at most."""
+        value = self._take(key, "a text")
         if not isinstance(value, str) or not value.strip():
             raise self.wrong(key, f"expected a text in quotes, found {_shown(value)}")
+        if len(value) > longest:
+            raise self.wrong(
+                key, f"expected {longest} characters at most, found {len(value):,}: shorten it"
+            )
+        if not value.isprintable():
+            raise self.wrong(
+                key,
+                "expected one line that can be printed, without control characters, found "
+                f"{_shown(value)}: leave them out",
+            )
         return value
 
     def one_of(self, key: str, choices: Iterable[str], default: str | None = None) -> str:

@@ -25,7 +25,7 @@ class WorldState:
     block_poses: FloatArray  # (B, 7) x y z [m] from the floor below the base, qx qy qz qw
     touched: bool  # the taught arm has touched the task's block
     tilt: float  # [rad] of the task's block from the upright
-    block_down: bool  # touched, leaning more than DOWN_TILT, and at rest
+    block_down: bool  # touched before it fell, leaning more than DOWN_TILT, and at rest
     # How far out the fingers of both hands are [m], as in fingers.FINGER_JOINTS; (0,) without them.
     fingers: FloatArray = field(default_factory=lambda: np.empty(0))
     done: bool = False  # the scene's success condition holds; of the paper's task: block_down
@@ -56,6 +56,7 @@ class BlockWatch:
     """What is known of a block: the memory from tick to tick."""
 
     touched: bool = False
+    pushed: bool = False  # touched before it last came to lean more than DOWN_TILT, or just then
     tilt: float = 0.0  # [rad]
     slow_ticks: int = 0  # since it last moved
 
@@ -66,8 +67,10 @@ class BlockWatch:
         [m/s] and spin [rad/s] at the end.
         """
         slow = speed <= REST_SPEED and spin <= REST_SPIN
+        touched = self.touched or touched
         return BlockWatch(
-            touched=self.touched or touched,
+            touched=touched,
+            pushed=self.pushed if self.tilt > DOWN_TILT else touched,
             tilt=tilt_of(pose),
             slow_ticks=self.slow_ticks + 1 if slow else 0,
         )
@@ -79,8 +82,8 @@ class BlockWatch:
 
     @property
     def down(self) -> bool:
-        """Whether the taught arm touched it, and it leans more than 60° and is at rest."""
-        return self.touched and self.tilt > DOWN_TILT and self.at_rest
+        """Whether it fell once the taught arm had touched it, and lies at rest."""
+        return self.pushed and self.tilt > DOWN_TILT and self.at_rest
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from studio.engine.arms import in_words
 from studio.engine.demonstration import SHORTEST
 from studio.engine.entry import LONGEST_NAME, Entry
 from studio.engine.robot import CONTROL_PERIOD
-from studio.engine.scene import DEFAULT_SCENE, Scene
+from studio.engine.scene import USUAL, Scene
 from studio.panels import markup
 from studio.panels.flags import explained, verdict
 from studio.panels.inputs import Post
@@ -132,4 +132,4 @@ def pictured(entry: Entry) -> str:
 
 def _where(scene: Scene) -> str:
     """Return in which scene it was taught, where that is not the paper's."""
-    return "" if scene.name == DEFAULT_SCENE else f", scene {scene.name}"
+    return "" if scene.is_same_as(USUAL) else f", scene {scene.name_beside(USUAL)}"

@@ -10,7 +10,7 @@ import viser
 
 from studio.engine import commands
 from studio.engine.entry import Entry
-from studio.engine.scene import DEFAULT_SCENE
+from studio.engine.scene import USUAL, Scene
 from studio.engine.snapshot import Snapshot
 from studio.panels import markup
 from studio.panels.card import Card
@@ -36,7 +36,7 @@ class Cards:
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
         self._card.draw(now.entries[now.chosen] if now.entries else None)
-        state = (now.entries, now.chosen, now.choices.scene.name)
+        state = (now.entries, now.chosen, now.choices.scene)
         if state == self._drawn:
             return
         self._drawn = state
@@ -47,7 +47,7 @@ class Cards:
         for place, row in enumerate(self._rows):
             is_used = place < len(now.entries)
             shown = now.entries[place] if is_used else None
-            row.show(shown, place == now.chosen, now.choices.scene.name)
+            row.show(shown, place == now.chosen, now.choices.scene)
         self._card.folder.order = 2.0 * now.chosen + 1.0
 
     def _add_rows(self, count: int) -> None:
@@ -65,8 +65,8 @@ class _Row:
         self._button.on_click(lambda _: post(commands.Choose(self._number)))
         self.id = self._button._impl.uuid  # viser's own name for it in the page
 
-    def show(self, entry: Entry | None, is_chosen: bool, scene: str) -> None:
-        """Show a demonstration, or nothing, while the scene of that name is chosen."""
+    def show(self, entry: Entry | None, is_chosen: bool, scene: Scene) -> None:
+        """Show a demonstration, or nothing, while that scene is chosen."""
         self._button.visible = entry is not None
         if entry is not None:
             self._number = entry.number
@@ -87,14 +87,14 @@ def headline(now: Snapshot) -> str:
     return markup.block(f"<b>Demonstrations</b>: {words}{marked}")
 
 
-def line(entry: Entry, scene: str = DEFAULT_SCENE) -> str:
+def line(entry: Entry, scene: Scene = USUAL) -> str:
     """Return a demonstration in a line, marked where it is of another scene than ``scene``."""
     name = entry.name
     short = name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 1]}…"
     block = entry.task.short[not entry.done]
     left_out = "" if entry.included else " · left out"
-    taught_in = entry.demonstration.scene.name
-    left_out += "" if taught_in == scene else f" · of {taught_in}"
+    taught_in = entry.demonstration.scene
+    left_out += "" if taught_in.is_same_as(scene) else f" · of {taught_in.name_beside(scene)}"
     flags = f" · {verdict(entry)}" if entry.flags or entry.flags is None else ""
     return (
         f"{entry.number}  {short} · {entry.demonstration.duration:.1f} s · {block}{flags}{left_out}"

@@ -6,7 +6,7 @@ Each ``why_not_...`` returns nothing where the thing can be done.
 from studio.engine.arms import in_words
 from studio.engine.entry import Entry
 from studio.engine.export.kind import WITHOUT_LESSON
-from studio.engine.scene import DEFAULT_SCENE
+from studio.engine.scene import USUAL
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.task_words import task_words
 
@@ -175,11 +175,11 @@ def _can_take_stream(now: Snapshot) -> bool:
 
 
 def _of_kind(now: Snapshot) -> list[Entry]:
-    kind = now.choices.arms, now.choices.mapping, now.choices.scene.name
+    kind = now.choices.arms, now.choices.mapping, now.choices.scene
     return [entry for entry in now.entries if entry.is_of(*kind)]
 
 
 def _wanted(now: Snapshot) -> str:
-    scene = now.choices.scene.name
-    where = "" if scene == DEFAULT_SCENE else f" in the scene {scene}"
+    scene = now.choices.scene
+    where = "" if scene.is_same_as(USUAL) else f" in the scene {scene.name_beside(USUAL)}"
     return f"{in_words(now.choices.arms)} with the {now.choices.mapping} mapping{where}"

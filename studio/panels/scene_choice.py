@@ -1,9 +1,12 @@
 """What stands around Baxter, and what is to be done with it: the choice, and how it stands."""
 
+from dataclasses import replace
+
 import viser
 
 from studio.engine import commands
-from studio.engine.scene_file import scene_names
+from studio.engine.scene import Scene
+from studio.engine.scene_file import read_scene, scene_names
 from studio.engine.snapshot import Snapshot
 from studio.engine.task_words import task_words
 from studio.panels import markup
@@ -27,13 +30,19 @@ class SceneChoice:
         scene, refusal = now.choices.scene, why_not_configure(now)
         if (scene, now.message.number) != self._drawn:
             self._drawn = scene, now.message.number
-            shipped = scene_names()
-            names = shipped if scene.name in shipped else (*shipped, scene.name)
+            names, name = scene_names(), listed_name(scene)
+            names = names if name in names else (*names, name)
             if self._choice.options != names:
                 self._choice.options = names
-            show_value(self._choice, scene.name)
+            show_value(self._choice, name)
         self._choice.disabled = bool(refusal)
         self._words.content = described(now) + markup.reasons([refusal] if refusal else [])
+
+
+def listed_name(scene: Scene) -> str:
+    """Return a scene's name on the list, told apart from that of one that ships."""
+    shipped = scene.name in scene_names()
+    return scene.name_beside(read_scene(scene.name)) if shipped else scene.name
 
 
 def described(now: Snapshot) -> str:
@@ -45,10 +54,16 @@ def described(now: Snapshot) -> str:
     ]
     needed = f" It takes {' and '.join(takes)}." if takes else ""
     words = markup.note(f"{scene.words}{needed}")
-    if now.scene.name != scene.name:
+    if _but_for_places(now.scene) != _but_for_places(scene):
         return words
     task = task_words(scene)
     missing = "" if now.world.done else now.world.missing
     if not missing or not now.world.touched:
         return words + (markup.note(f"✔ {task.sentence[0]}") if now.world.done else "")
     return words + markup.note(f"Not done yet: {missing}.")
+
+
+def _but_for_places(scene: Scene) -> Scene:
+    """Return a scene for comparison with one whose blocks people have put elsewhere."""
+    blocks = tuple(replace(block, position=(0.0, 0.0, 0.0)) for block in scene.blocks)
+    return replace(scene.as_told, blocks=blocks)

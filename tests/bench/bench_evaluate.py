@@ -17,7 +17,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from studio.engine.demonstration import DemonstrationSet
-from studio.engine.evaluate.runs import Conditions, One
+from studio.engine.evaluate.runs import Conditions, Trial
 from studio.engine.evaluate.subject import subject_of_lesson
 from studio.engine.evaluate.variation import Variations
 from studio.engine.experiment import Setup, teach
@@ -62,7 +62,7 @@ def speed() -> str:
     )
     trials, performances, worlds = [], [], []
     for number in range(ROUNDS):
-        one = One(subject.motion, number, conditions)
+        one = Trial(subject.motion, number, conditions)
         trials.append(seconds(one.run))
         performances.append(
             seconds(lambda: perform(lesson.trajectory(), taught.duration, "left", "exact"))

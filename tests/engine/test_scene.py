@@ -143,3 +143,18 @@ def test_scenes_that_cannot_be_are_refused(changes: dict[str, object], told: str
 def test_success_needs_a_condition() -> None:
     with pytest.raises(StudioError, match="at least one condition"):
         Success(())
+
+
+def test_a_scene_is_the_same_by_all_that_is_in_it_for_whichever_arms() -> None:
+    usual = Scene()
+    rough = replace(usual, desk=replace(usual.desk, friction=0.5))
+    for arms in ("left", "right", "both"):
+        assert usual.is_same_as(usual.taught_by(arms))
+        assert not rough.is_same_as(usual.taught_by(arms))
+    assert not usual.is_same_as(replace(usual, name="other"))
+    with_both = Scene(arms="both", both_arms=True)
+    assert not with_both.is_same_as(usual)
+    assert not usual.is_same_as(with_both)
+    assert rough.name_beside(usual) == "push-down (another one)"
+    assert usual.taught_by("right").name_beside(usual) == "push-down"
+    assert replace(rough, name="mine").name_beside(usual) == "mine"

@@ -94,6 +94,21 @@ def broken(tmp_path: Path, *changes: tuple[str, str]) -> str:
         ("[desk]", "[desks]", r"desk: expected a table \[desk\], found nothing"),
         ('words = "Push', 'words = "" #', "words: expected a text"),
         ("[desk]", "[desk", "expected TOML"),
+        ("mass = 0.3", "mass = inf", "block 1.mass: expected a number.*found inf"),
+        ("friction = 0.4", "friction = -inf", "block 1.friction: expected a number.*found -inf"),
+        ("0.28, 0.79]", "nan, 0.79]", r"block 1.position\[1\]: expected a number.*found nan"),
+        (
+            "0.28, 0.79]",
+            "0.28, 1e300]",
+            r"block 1.position\[2\]: expected -3 to 3 m, found 1e\+300",
+        ),
+        ("0.28, 0.79]", "0.28, 0.82]", "block 1.position: 'box' hangs in the air; .* is at 0.79"),
+        ('"mat"', f'"{"m" * 61}"', "zone 1.name: expected 60 characters at most, found 61: short"),
+        ('"box"', r'"b\u0000x"', r"block 1.name: .*control characters, found 'b\\x00x': leave"),
+        ('"box"', r'"b\nx"', "block 1.name: expected one line that can be printed"),
+        ('"box"', r'"b\u202ex"', "block 1.name: expected one line that can be printed"),
+        ('words = "P', f'words = "{"P" * 300}', "words: expected 300 characters at most, found 3"),
+        ("center = [0.70, 0.02]", "center = [0.7, 0.17]", "success 1.zone: 'box' is in 'mat' from"),
         ("mass = 0.3", f"mass = 1{'0' * 400}", "block 1.mass: expected a number.*found 100"),
         ("mass = 0.3", f"mass = 1{'0' * 5000}", "expected TOML"),
         ("mass = 0.3", f"mass = 0x1{'0' * 5000}", "block 1.mass: .*thousands of digits"),
@@ -149,3 +164,52 @@ def test_a_scene_of_both_arms_names_which_arm(tmp_path: Path) -> None:
     assert (scene.arms, scene.success.conditions[0].arm) == ("both", "right")
     assert scene_of(table_of(scene), "here", "both") == scene
     assert replace(scene, name="other") != scene
+
+
+def changed(**changes: object) -> dict[str, object]:
+    """Return the example's table with some keys changed."""
+    return {**tomllib.loads(EXAMPLE), **changes}
+
+
+DOWN = {"is": "down", "block": "box"}
+IN_MAT = {"is": "in zone", "block": "box", "zone": "mat"}
+LIFT = {"is": "lifted", "block": "box", "height": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("both", "conditions", "told"),
+    [
+        (False, [DOWN, DOWN], "success 2: asks for the same as success 1: keep one of them"),
+        (False, [IN_MAT, {**IN_MAT, "released": True}], "success 2: asks for the same"),
+        (False, [LIFT, DOWN, {**LIFT, "height": 0.2}], "success 3: asks for the same as success 1"),
+        (True, [DOWN, {**DOWN, "arm": "left"}], "success 2: asks for the same"),
+        (True, [{**DOWN, "arm": "right"}, {**DOWN, "arm": "left"}], ""),
+        (False, [LIFT, DOWN, IN_MAT], ""),
+        (False, [IN_MAT, {**IN_MAT, "zone": "rug"}], "success 2.zone: in the end 'box' cannot be"),
+        (False, [IN_MAT, {**IN_MAT, "zone": "edge"}], ""),
+    ],
+)
+def test_conditions_are_neither_doubled_nor_contradictory(both, conditions, told: str) -> None:
+    zones = [
+        {"name": "mat", "center": [0.7, 0.02], "size": [0.2, 0.2]},
+        {"name": "rug", "center": [0.9, 0.02], "size": [0.2, 0.2]},
+        {"name": "edge", "center": [0.8, 0.02], "size": [0.1, 0.2]},
+    ]
+    table = changed(success=conditions, zone=zones, both_arms=both)
+    if not told:
+        assert len(scene_of(table, "here", "mine").success.conditions) == len(conditions)
+        return
+    with pytest.raises(FileError, match=f"here: {re.escape(told)}"):
+        scene_of(table, "here", "mine")
+
+
+@pytest.mark.parametrize("name", ["a\nb", "a" * 61, "a\0b", ""])
+def test_a_scenes_own_name_can_be_shown_in_a_line(name: str) -> None:
+    with pytest.raises(FileError, match="a scene's name, its file's, has 1 to 60 characters"):
+        scene_of(changed(), f"{name}.toml", name)
+
+
+def test_a_recordings_scene_may_be_as_people_have_put_it() -> None:
+    """A block that was dragged into its zone is no file's mistake, and the recording is read."""
+    inside = read_scene("push-into-zone").with_block_at(0.71, 0.01)
+    assert scene_of(table_of(inside), "a recording", inside.name) == inside

@@ -53,3 +53,17 @@ def test_a_touch_is_remembered_and_a_movement_counts_anew() -> None:
     assert moved.touched
     assert not moved.down
     assert moved.slow_ticks == 0
+
+
+def test_what_fell_untouched_is_not_pushed_down_by_a_later_touch() -> None:
+    lying, upright = pose(math.pi / 2), pose(0.0)
+    watch = BlockWatch()
+    for _ in range(REST_TICKS):
+        watch = watch.step(False, lying, 0.0, 0.0)
+    watch = watch.step(True, lying, 0.0, 0.0)
+    assert watch.touched
+    assert not watch.down
+    for seen in (upright, lying):
+        for _ in range(REST_TICKS):
+            watch = watch.step(False, seen, 0.0, 0.0)
+    assert watch.down  # set upright, and fallen again

@@ -7,6 +7,9 @@ import pytest
 from studio.engine import commands
 from studio.engine.scene_file import read_scene, scene_names
 from studio.engine.snapshot import Mode
+from studio.panels.card import pictured
+from studio.panels.cards import line
+from studio.panels.readiness import fitting, why_not_train
 from studio.panels.scene_choice import SceneChoice, described
 from tests.panels.controls import Gui
 
@@ -67,3 +70,30 @@ def test_it_says_what_is_missing_once_the_arm_has_touched_a_block(lesson) -> Non
     assert missing not in described(before)
     assert missing in described(touched)
     assert "✔ The task is done." in described(done)
+
+
+def test_a_scene_of_the_same_name_is_told_apart_everywhere(lesson) -> None:
+    gui, now = Gui(), lesson["trained"]
+    usual = now.choices.scene
+    other = replace(usual, desk=replace(usual.desk, friction=0.5))
+    name = "push-down (another one)"
+    elsewhere = replace(now, choices=now.choices.in_scene(other))
+    SceneChoice(gui, lambda _: None).draw(elsewhere)
+    assert (gui["Scene"].options, gui["Scene"].value) == ((*scene_names(), name), name)
+    assert fitting(now)
+    assert not fitting(elsewhere)
+    assert f"in the scene {name}" in why_not_train(elsewhere)
+    entry = now.entries[0]
+    assert line(entry, usual) == line(entry)
+    assert line(entry, other) == f"{line(entry)} · of {name}"
+    shown = replace(entry.demonstration, scene=other)
+    assert f"scene {name}" in pictured(replace(entry, demonstration=shown))
+    assert "scene" not in pictured(entry)
+
+
+def test_what_is_missing_is_told_of_the_chosen_scene_wherever_its_blocks_were_put(lesson) -> None:
+    now = in_scene(lesson["played"], "push-into-zone", touched=True, missing="the box still moves")
+    moved = replace(now, scene=now.scene.with_block_at(0.8, 0.35))
+    assert "Not done yet: the box still moves." in described(moved)
+    rough = replace(now.scene, desk=replace(now.scene.desk, friction=0.5))
+    assert "Not done yet" not in described(replace(now, scene=rough))

@@ -9,7 +9,7 @@ import numpy as np
 from studio.engine.evaluate.interval import Rate, mcnemar, rate_of, wilson
 from studio.engine.evaluate.journal import Journal, Key
 from studio.engine.evaluate.motion import Motion
-from studio.engine.evaluate.runs import Conditions, One, Told, checked_count, run_trials
+from studio.engine.evaluate.runs import Conditions, Progress, Trial, checked_count, run_trials
 from studio.engine.evaluate.trial import Outcome
 
 PARTS = 3  # that the trials are divided into by what was drawn: low, middle, high
@@ -91,7 +91,7 @@ def evaluate(
     replayed: int,
     jobs: int | None = None,
     journal: Journal | None = None,
-    told: Told = lambda _over, _all: None,
+    progress: Progress = lambda _over, _all: None,
 ) -> Evaluation:
     """Do a motion ``trials`` times, and each replay ``replayed`` times, under varied conditions.
 
@@ -107,8 +107,8 @@ def evaluate(
     checked_count("trials", trials)
     checked_count("replays", replayed, least=0)
     asked = _asked(motion, trials, conditions)
-    asked += [one for each in replays for one in _asked(each, replayed, conditions)]
-    found = run_trials(sorted(asked, key=lambda one: one.trial), jobs, journal, told)
+    asked += [trial for each in replays for trial in _asked(each, replayed, conditions)]
+    found = run_trials(sorted(asked, key=lambda trial: trial.number), jobs, journal, progress)
     shown = tuple(tested_of(each, replayed, found) for each in replays)
     return Evaluation(conditions, tested_of(motion, trials, found), shown if replayed else ())
 
@@ -137,8 +137,8 @@ def pooled(replays: Sequence[Tested]) -> tuple[float, float, float]:
     return (rate, *wilson(rate * trials, trials))
 
 
-def _asked(motion: Motion, trials: int, conditions: Conditions) -> list[One]:
-    return [One(motion, trial, conditions) for trial in range(trials)]
+def _asked(motion: Motion, trials: int, conditions: Conditions) -> list[Trial]:
+    return [Trial(motion, trial, conditions) for trial in range(trials)]
 
 
 def _parts(values: np.ndarray, done: np.ndarray) -> tuple[Part, ...]:

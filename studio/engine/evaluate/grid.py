@@ -15,7 +15,7 @@ from studio.engine.errors import StudioError
 from studio.engine.evaluate.evaluation import Tested, pooled, tested_of
 from studio.engine.evaluate.journal import Journal
 from studio.engine.evaluate.motion import Motion, motion_of, replay_of
-from studio.engine.evaluate.runs import Conditions, One, Told, checked_count, run_trials
+from studio.engine.evaluate.runs import Conditions, Progress, Trial, checked_count, run_trials
 from studio.engine.hands import HandTrack
 from studio.engine.learned_hands import learned_hands
 from studio.engine.learners import LEARNER_KINDS, kind_of, require
@@ -162,7 +162,7 @@ def evaluate_grid(
     trials: int = TRIALS,
     jobs: int | None = None,
     journal: Journal | None = None,
-    told: Told = lambda _over, _all: None,
+    progress: Progress = lambda _over, _all: None,
 ) -> Grid:
     """Do the motion of every network, and every replay, ``trials`` times under varied conditions.
 
@@ -177,8 +177,8 @@ def evaluate_grid(
     if not replays:
         raise StudioError("numbers of neurons are judged beside demonstrations: give recordings")
     motions = [*(network.motion for network in shown), *replays]
-    asked = [One(motion, trial, conditions) for trial in range(trials) for motion in motions]
-    found = run_trials(asked, jobs, journal, told)
+    asked = [Trial(motion, trial, conditions) for trial in range(trials) for motion in motions]
+    found = run_trials(asked, jobs, journal, progress)
     cells = tuple(Cell(each, tested_of(each.motion, trials, found)) for each in shown)
     return Grid(conditions, cells, tuple(tested_of(each, trials, found) for each in replays))
 

@@ -1,6 +1,6 @@
 """Trials that are over, in a file that is only ever appended to, so that none is done twice.
 
-    {"format": "teaching-studio evaluation", "schema": 1, "versions": {...}, "scene": {...},
+    {"format": "teaching-studio evaluation", "schema": 2, "versions": {...}, "scene": {...},
      "seed": 0, "widths": {"block": 0.03, ...}, "motions": {"model": "9f3c..."}}
     {"motion": "model", "trial": 0, "done": true, "why": ""}
     {"motion": "model", "trial": 1, "done": false, "why": "the block still stands"}
@@ -34,7 +34,7 @@ if sys.platform != "win32":
     import fcntl
 
 FILE = "trials.jsonl"
-FORMAT, SCHEMA = "teaching-studio evaluation", 1
+FORMAT, SCHEMA = "teaching-studio evaluation", 2  # 1 drew and judged otherwise
 _LIBRARIES = ("numpy", "pybullet")  # what outcomes depend on
 _LARGEST = 1 << 30  # [bytes] of a file that is read; a trial takes some 80
 _IN_WORDS = {

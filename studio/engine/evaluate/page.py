@@ -39,16 +39,16 @@ def evaluation_rows(found: Evaluation) -> Rows:
 
 
 def parts_rows(found: Evaluation) -> Rows:
-    """Return the success by what was drawn as a table."""
-    head = ("drawn", "lowest third", "middle third", "highest third")
+    """Return the success by what was drawn as a table: a row for each variation."""
+    head = ("drawn", "lowest", "middle", "highest")
     rows = []
     for name, parts in found.parts.items():
-        told = [
+        lowest, *middle, highest = [
             f"{100 * part.rate.value:.3g} % of {part.rate.trials} "
             f"({part.low:.3g} to {part.high:.3g})"
             for part in parts
         ]
-        rows.append((name, *told, *([""] * (3 - len(told)))))
+        rows.append((name, lowest, *(middle or [""]), highest))
     return head, rows
 
 

@@ -13,7 +13,7 @@ from studio.engine.parallel import run_each
 from studio.engine.scene import Scene
 
 MOST_TRIALS = 1_000_000
-Told = Callable[[int, int], None]  # how many trials are over, of how many
+Progress = Callable[[int, int], None]  # how many trials are over, of how many
 
 
 @dataclass(frozen=True)
@@ -36,34 +36,35 @@ class Conditions:
 
     def variation(self, motion: Motion, trial: int) -> Variation:
         """Return what differs in a trial; the same for all motions of the same arms."""
-        return draw(self.widths, self.seed, trial, len(driven_joints(motion.arms)))
+        joints = len(driven_joints(motion.arms))
+        return draw(self.widths, self.seed, trial, joints, self.scene)
 
 
 @dataclass(frozen=True, eq=False)
-class One:
-    """One trial to be done."""
+class Trial:
+    """A trial to be done."""
 
     motion: Motion
-    trial: int
+    number: int
     conditions: Conditions
 
     @property
     def key(self) -> Key:
         """What it is called in a journal."""
-        return self.motion.name, self.trial
+        return self.motion.name, self.number
 
     def run(self) -> Outcome:
         """Do it."""
         conditions = self.conditions
-        variation = conditions.variation(self.motion, self.trial)
+        variation = conditions.variation(self.motion, self.number)
         return run_trial(self.motion, conditions.scene, variation)
 
 
 def run_trials(
-    asked: Sequence[One],
+    asked: Sequence[Trial],
     jobs: int | None = None,
     journal: Journal | None = None,
-    told: Told = lambda _over, _all: None,
+    progress: Progress = lambda _over, _all: None,
 ) -> dict[Key, Outcome]:
     """Do trials, but for those that a journal knows, and return the outcome of each.
 
@@ -72,18 +73,18 @@ def run_trials(
     asked : the trials, each once
     jobs : how many at once, see `studio.engine.parallel`
     journal : where they are kept as they end
-    told : hears how far it has come
+    progress : hears how far it has come
 
     """
     known: Mapping[Key, Outcome] = {} if journal is None else journal.known
-    found = {one.key: known[one.key] for one in asked if one.key in known}
-    missing = [one for one in asked if one.key not in found]
-    told(len(found), len(asked))
-    for one, outcome in zip(missing, run_each(_run, missing, jobs), strict=True):
-        found[one.key] = outcome
+    found = {trial.key: known[trial.key] for trial in asked if trial.key in known}
+    missing = [trial for trial in asked if trial.key not in found]
+    progress(len(found), len(asked))
+    for trial, outcome in zip(missing, run_each(_run, missing, jobs), strict=True):
+        found[trial.key] = outcome
         if journal is not None:
-            journal.add(one.key, outcome)
-        told(len(found), len(asked))
+            journal.add(trial.key, outcome)
+        progress(len(found), len(asked))
     return found
 
 
@@ -94,5 +95,5 @@ def checked_count(name: str, count: int, least: int = 1) -> int:
     return count
 
 
-def _run(one: One) -> Outcome:
-    return one.run()
+def _run(trial: Trial) -> Outcome:
+    return trial.run()

@@ -16,10 +16,8 @@ from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE
 from studio.engine.scene import Scene
 from studio.engine.skeleton import FloatArray
 from studio.engine.world import WorldState
-from studio.engine.world_state import DOWN_TILT
 
 REFUSED = "the guard did not let Baxter come to where the motion begins"
-BY_ITSELF = "the block fell without having been touched by a taught arm"
 
 
 @dataclass(frozen=True)
@@ -42,7 +40,7 @@ def run_trial(motion: Motion, scene: Scene, variation: Variation) -> Outcome:
     start[:driven] += variation.start
     start = np.clip(start, limits.lower, limits.upper)
     try:
-        way, sent = _told(motion, planner, start)
+        way, sent = _planned(motion, planner, start)
     except UnreachableError:
         return Outcome(False, REFUSED)
     arrived = variation.arrived(len(sent))
@@ -64,8 +62,6 @@ def run_trial(motion: Motion, scene: Scene, variation: Variation) -> Outcome:
 
 def why_not(state: WorldState) -> str:
     """Return why a task is not done in the end, without the numbers that differ each time."""
-    if not state.touched and state.tilt > DOWN_TILT:
-        return BY_ITSELF
     return re.sub(r"\b\d+(\.\d+)? cm outside", "outside", state.missing)
 
 
@@ -74,7 +70,7 @@ def _ticks_of(motion: Motion) -> int:
     return math.ceil(motion.duration * CONTROL_RATE)
 
 
-def _told(motion: Motion, planner: Planner, start: FloatArray) -> tuple[int, FloatArray]:
+def _planned(motion: Motion, planner: Planner, start: FloatArray) -> tuple[int, FloatArray]:
     """Return how many ticks the way takes, and what is sent (T, D + W) [rad] on it and after it.
 
     Where the way ends exactly at the motion's begin, that has been planned already.

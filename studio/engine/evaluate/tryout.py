@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from studio.engine.evaluate.interval import Rate, rate_of
-from studio.engine.evaluate.runs import Conditions, One, checked_count
+from studio.engine.evaluate.runs import Conditions, Trial, checked_count
 from studio.engine.evaluate.subject import subject_of_lesson
 from studio.engine.evaluate.trial import Outcome
 from studio.engine.evaluate.variation import Variations
@@ -18,7 +18,7 @@ from studio.engine.teaching import Lesson
 
 
 @dataclass(frozen=True)
-class Both:
+class TryoutPoint:
     """One trial, done by what was learned and by a demonstration's own replay."""
 
     alone: Outcome
@@ -27,7 +27,7 @@ class Both:
 
 @dataclass(frozen=True, eq=False)
 class TryoutRun:
-    """A task for a workplace: so many trials, each a point `Both`.
+    """A task for a workplace: so many trials, each a point `TryoutPoint`.
 
     Raises
     ------
@@ -44,14 +44,14 @@ class TryoutRun:
     def __post_init__(self) -> None:
         checked_count("trials", self.size)
 
-    def points(self) -> Iterator[Both]:
+    def points(self) -> Iterator[TryoutPoint]:
         """Yield the trials in their order."""
         subject = subject_of_lesson(self.lesson, self.scene)
         conditions = Conditions(self.scene, Variations(), 0)
         for trial in range(self.size):
             replay = subject.replays[trial % len(subject.replays)]
-            alone = One(subject.motion, trial, conditions).run()
-            yield Both(alone, One(replay, trial, conditions).run())
+            alone = Trial(subject.motion, trial, conditions).run()
+            yield TryoutPoint(alone, Trial(replay, trial, conditions).run())
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +68,7 @@ class TryoutStatus:
     @classmethod
     def of(cls, run: TryoutRun, points: Sequence[object], goes_on: bool) -> "TryoutStatus":
         """Return what is known after some of a test's points."""
-        known = [point for point in points if isinstance(point, Both)]
+        known = [point for point in points if isinstance(point, TryoutPoint)]
         if not known:
             return cls(run.lesson, run.size, goes_on=goes_on)
         whys = Counter(point.alone.why for point in known if not point.alone.done)

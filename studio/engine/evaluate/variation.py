@@ -5,15 +5,21 @@ is the same whichever process does it, whoever does the motion in it, and whatev
 that is compared meets the same trials (common random numbers), and a variation that is switched off
 leaves the others as they were.
 
+How wide each of them is, is our choice, and no measurement of any robot or workshop:
+
 block      uniform in a square around where the blocks were taught: somebody sets them up by eye.
-           All blocks are shifted alike, as if it were the robot that stands elsewhere.
-friction   uniform factor of the blocks' friction: dry wood on wood is said to have 0.25 to 0.5,
-           and a desk is wiped or it is not.
-mass       uniform factor of the blocks' mass: wood of one kind differs that much in density.
+           All blocks are shifted alike, as if it were the robot that stands elsewhere. Where they
+           would stand beside the desk, in Baxter or in their zone already, the trial would be
+           decided before it begins: then it is drawn again from the same generator, up to `TRIES`
+           times, and after that they stand where they were taught.
+friction   uniform factor of the blocks' friction: a desk is wiped or it is not. Multiplied
+           with the desk's, that of the shipped scenes is 0.3 to 0.6; tables have 0.25 to 0.5 for
+           dry and clean wood on wood
+           (https://mech.subwiki.org/wiki/Table_of_friction_coefficients).
+mass       uniform factor of the blocks' mass: another block of the same size is of another wood.
 start      uniform offset of each driven joint where the robot waits: it was left there by hand.
 noise      normal: a constant offset of each driven joint for the whole trial, and a fifth of that
-           anew in each tick. Rethink Robotics' hardware specifications give Baxter's joint sensors
-           an accuracy of 0.1° typically and 0.25° at worst.
+           anew in each tick. A shoulder that is off by 0.25° leads a hand 4 mm off, a meter away.
 latency    whole control ticks: a trial has a largest latency, uniform from 0 to the width; each
            command takes a uniform one up to that, and the newest that is there holds, as with
            V-REP's non-blocking calls. A latency that stays the same would only delay the motion.
@@ -26,8 +32,10 @@ from numpy.typing import NDArray
 
 from studio.engine.errors import StudioError
 from studio.engine.scene import Scene
+from studio.engine.scene_check import can_begin
 from studio.engine.skeleton import FloatArray
 
+TRIES = 100  # draws of where blocks stand, before they stay where they were taught
 JITTER = 0.2  # of the constant offset's standard deviation: that of a tick's
 _DRAWS = ("block", "friction", "mass", "start", "noise", "latency")
 # Their units as people are told, and how many of these one of ours is.
@@ -112,17 +120,12 @@ class Variation:
 
     def scene(self, usual: Scene) -> Scene:
         """Return a scene as it is in this trial."""
-        dx, dy = self.block.tolist()
+        moved = _shifted(usual, self.block)
         blocks = tuple(
-            replace(
-                block,
-                position=(block.position[0] + dx, block.position[1] + dy, block.position[2]),
-                mass=block.mass * self.mass,
-                friction=block.friction * self.friction,
-            )
-            for block in usual.blocks
+            replace(block, mass=block.mass * self.mass, friction=block.friction * self.friction)
+            for block in moved.blocks
         )
-        return replace(usual, blocks=blocks)
+        return replace(moved, blocks=blocks)
 
     def offsets(self, ticks: int) -> FloatArray:
         """Return by how much the joints miss what they are told (T, D) [rad]."""
@@ -153,8 +156,8 @@ class Variation:
         }
 
 
-def draw(widths: Variations, seed: int, trial: int, joints: int) -> Variation:
-    """Return what differs in trial number ``trial`` for that many driven joints."""
+def draw(widths: Variations, seed: int, trial: int, joints: int, scene: Scene) -> Variation:
+    """Return what differs in trial number ``trial`` of a scene for that many driven joints."""
 
     def uniform(name: str, count: int) -> FloatArray:
         found: FloatArray = _generator(seed, trial, name).uniform(-1.0, 1.0, count)
@@ -164,7 +167,7 @@ def draw(widths: Variations, seed: int, trial: int, joints: int) -> Variation:
     noise = np.radians(widths.noise)
     share = float(_generator(seed, trial, "latency").random())
     return Variation(
-        block=widths.block * uniform("block", 2),
+        block=_shift(widths.block, seed, trial, scene),
         friction=1.0 + widths.friction * float(uniform("friction", 1)[0]),
         mass=1.0 + widths.mass * float(uniform("mass", 1)[0]),
         start=np.radians(widths.start) * uniform("start", joints),
@@ -173,6 +176,25 @@ def draw(widths: Variations, seed: int, trial: int, joints: int) -> Variation:
         latency=int(share * (widths.latency + 1)),
         seed=(seed, trial),
     )
+
+
+def _shift(width: float, seed: int, trial: int, scene: Scene) -> FloatArray:
+    """Return by how much all blocks are shifted (2,) [m], so that the task can begin."""
+    generator = _generator(seed, trial, "block")
+    for _ in range(TRIES if width else 0):
+        shift: FloatArray = width * generator.uniform(-1.0, 1.0, 2)
+        if can_begin(_shifted(scene, shift)):
+            return shift
+    return np.zeros(2)
+
+
+def _shifted(scene: Scene, shift: FloatArray) -> Scene:
+    dx, dy = shift.tolist()
+    blocks = tuple(
+        replace(block, position=(block.position[0] + dx, block.position[1] + dy, block.position[2]))
+        for block in scene.blocks
+    )
+    return replace(scene, blocks=blocks)
 
 
 def widths_of(variations: Variations) -> dict[str, float]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from studio.engine.scene import DEFAULT_SCENE, Scene
+from studio.engine.scene import USUAL, Scene
 from studio.engine.skeleton import FloatArray, HandState
 from studio.engine.sources.arm_goals import ArmPose, HandGoal, Reacher
 from studio.engine.sources.strokes import strokes_of
@@ -58,7 +58,7 @@ def script_of(scene: Scene, signs: Sequence[HandState]) -> list[Step]:
 
 def _task(scene: Scene, sign: HandState) -> list[Step]:
     """Return the steps from the ready pose to where the task is done."""
-    if scene.name == DEFAULT_SCENE:
+    if scene.is_same_as(USUAL):
         return [Step(SWEPT, 2.2, sign), Step(SWEPT, 0.4, sign)]
     steps: list[Step] = []
     left: Goal = READY

@@ -16,7 +16,7 @@ def test_two_workers_on_dask_give_the_identical_table():
     distributed = pytest.importorskip("distributed", reason="dask comes with the extra cluster")
 
     def table() -> str:
-        found = evaluate(swing(), [swing("other", -0.3)], conditions(), 6, 4)
+        found = evaluate(swing(), [swing("other", -0.3)], conditions(), 3, 2)
         return json.dumps(shown_evaluation(found).json)
 
     here = table()

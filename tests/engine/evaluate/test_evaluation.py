@@ -8,18 +8,18 @@ import pytest
 from studio.engine.errors import StudioError
 from studio.engine.evaluate.evaluation import evaluate, paired, pooled
 from studio.engine.evaluate.interval import wilson
-from studio.engine.evaluate.runs import One
+from studio.engine.evaluate.runs import Trial
 from tests.engine.evaluate.made_up import evaluation, made_up
 from tests.engine.evaluate.swings import conditions, swing
 
 
 def test_an_evaluation_is_the_trials_one_by_one() -> None:
     other = swing("other", -0.3)
-    found = evaluate(swing(), [other], conditions(), 6, 3, jobs=1)
-    assert found.tested.outcomes == tuple(One(swing(), i, conditions()).run() for i in range(6))
+    found = evaluate(swing(), [other], conditions(), 3, 1, jobs=1)
+    assert found.tested.outcomes == tuple(Trial(swing(), i, conditions()).run() for i in range(3))
     (beside,) = found.replays
-    assert beside.outcomes == tuple(One(other, i, conditions()).run() for i in range(3))
-    assert found.tested.rate.trials == 6
+    assert beside.outcomes == (Trial(other, 0, conditions()).run(),)
+    assert found.tested.rate.trials == 3
 
 
 def test_a_rate_counts_and_failures_are_told_by_their_number() -> None:

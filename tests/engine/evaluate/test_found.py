@@ -9,7 +9,9 @@ import pytest
 
 from studio.engine.evaluate.charts import grid_picture
 from studio.engine.evaluate.found import Found, shown_evaluation, shown_grid
+from studio.engine.evaluate.page import parts_rows
 from studio.engine.evaluate.report import hurting_in_words, paired_in_words
+from studio.engine.evaluate.variation import Variations
 from tests.engine.evaluate.made_up import evaluation, grid, made_up
 
 GRID = grid(rbf="0 8 17 20", newrb="0 0 1 2")
@@ -112,3 +114,16 @@ def test_tables_in_markdown_hold_the_same_numbers() -> None:
     assert "- rbf: 8 neurons do the task" in answers
     assert "3 × the block still stands" in FOUND["one"].tables
     assert "| mass [%] |" in FOUND["one"].tables
+
+
+def test_what_was_drawn_least_and_most_stands_under_its_heading() -> None:
+    """Where equal draws leave two parts, as of a latency of one tick, there is no middle."""
+    usual = evaluation()
+    coarse = replace(usual.conditions, widths=Variations(latency=1))
+    head, rows = parts_rows(replace(usual, conditions=coarse))
+    assert head == ("drawn", "lowest", "middle", "highest")
+    cells = {name: tuple(told) for name, *told in rows}
+    lowest, middle, highest = cells["latency [ticks]"]
+    assert (lowest[-8:], middle, highest[-8:]) == ("(0 to 0)", "", "(1 to 1)")
+    assert all(cells["mass [%]"])
+    assert {len(told) for told in cells.values()} == {3}

@@ -7,7 +7,7 @@ import pytest
 
 from studio.engine.errors import FileError
 from studio.engine.evaluate.journal import FILE, Journal, digest_of, header_of
-from studio.engine.evaluate.runs import One, run_trials
+from studio.engine.evaluate.runs import Trial, run_trials
 from studio.engine.evaluate.trial import Outcome
 from studio.engine.evaluate.variation import Variations
 from tests.engine.evaluate.swings import WIDTHS, conditions, scene, swing
@@ -53,7 +53,7 @@ def test_wherever_a_kill_cuts_the_file_no_whole_line_is_lost(tmp_path) -> None:
 
 
 def test_known_trials_are_not_done_again(tmp_path) -> None:
-    asked = [One(swing(), trial, conditions()) for trial in range(3)]
+    asked = [Trial(swing(), trial, conditions()) for trial in range(3)]
     told = []
     with Journal(tmp_path, header()) as journal:
         journal.add(("swing", 1), Outcome(False, "made up"))

@@ -1,5 +1,7 @@
 """The demonstrator's script: between two places of the hand it moves along a line."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -71,3 +73,11 @@ def test_a_seed_gives_the_same_bytes_in_every_scene(name: str) -> None:
 def test_without_a_scene_it_is_the_papers() -> None:
     given, usual = demonstrate(3, 1, scene=read_scene("push-down")), demonstrate(3, 1)
     assert [s.positions.tobytes() for s in given] == [s.positions.tobytes() for s in usual]
+
+
+def test_a_scene_of_ones_own_that_has_the_papers_name_is_shown_by_its_own_blocks() -> None:
+    usual = read_scene("push-down")
+    own = usual.with_block_at(0.7, 0.05)
+    assert own.name == usual.name
+    assert script_of(own, ()) == script_of(replace(own, name="mine"), ())
+    assert script_of(usual.taught_by("right"), ()) == script_of(usual, ()) != script_of(own, ())
