@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # its signal is loaded when first used: half of what a command waits for otherwise
 from numpy.typing import NDArray
-from scipy.signal import butter, filtfilt
 
 from studio.engine.arm import ArmStages
 from studio.engine.calibration import Calibration
@@ -109,11 +109,13 @@ def solved(directions: Directions, solve: Solve) -> FloatArray:
 
 
 def _wanted(frames: list[Skeleton | None], pipeline: Pipeline) -> FloatArray:
+    """Return what the only arm of a pipeline wants (T, 4); nothing is sent, which costs most."""
     wanted, memory = np.full((len(frames), 4), np.nan), pipeline.start()
     for tick, skeleton in enumerate(frames):
-        memory, outcome = pipeline.advance(memory, skeleton, tick * CONTROL_PERIOD)
-        if outcome.wanted is not None:
-            wanted[tick] = outcome.wanted
+        memory, gate = pipeline.observe(memory, skeleton, tick * CONTROL_PERIOD)
+        (arm,) = memory.arms
+        if gate.armed and arm.wanted is not None:
+            wanted[tick] = arm.wanted
     return wanted
 
 
@@ -157,11 +159,12 @@ def _interpolated(ticks: FloatArray, stamps: FloatArray, directions: list[Vector
 
 def _zero_phase(directions: FloatArray) -> FloatArray:
     """Return unit vectors (T, 3) filtered forward and backward, NaN in runs that are too short."""
-    b, a = butter(_ORDER, ZERO_PHASE_CUTOFF, fs=CONTROL_RATE)
+    b, a = scipy.signal.butter(_ORDER, ZERO_PHASE_CUTOFF, fs=CONTROL_RATE)
     smooth = np.full(directions.shape, np.nan)
     for first, last in runs_of(finite_rows(directions)):
         if last - first + 1 >= _SHORTEST_RUN:
-            smooth[first : last + 1] = _normalized(filtfilt(b, a, directions[first : last + 1].T).T)
+            filtered = scipy.signal.filtfilt(b, a, directions[first : last + 1].T).T
+            smooth[first : last + 1] = _normalized(filtered)
     return smooth
 
 

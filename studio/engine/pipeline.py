@@ -11,15 +11,7 @@ import numpy as np
 from studio.engine.arm import ArmMemory, ArmStages
 from studio.engine.arms import Arms, driven_joints, sides_of
 from studio.engine.calibration import Calibration
-from studio.engine.engage import (
-    COMING,
-    LONG_UNSEEN,
-    Engage,
-    EngageMemory,
-    Joints,
-    Move,
-    Passed,
-)
+from studio.engine.engage import COMING, LONG_UNSEEN, Engage, EngageMemory, Joints, Move, Passed
 from studio.engine.gate import Gate, GateMemory, GateMode, GateStatus
 from studio.engine.guard import Guard
 from studio.engine.hands import (
@@ -170,8 +162,7 @@ class Pipeline:
         self, memory: PipelineMemory, skeleton: Skeleton | None, time: float
     ) -> tuple[PipelineMemory, Outcome]:
         """Do one control tick at ``time`` [s] with the newest frame, or None if none is new."""
-        gate_memory, status = self.gate.step(memory.gate, skeleton, time)
-        memory = replace(self._see(memory, skeleton, status.armed, time), gate=gate_memory)
+        memory, status = self.observe(memory, skeleton, time)
         moves = self._moves(memory, status.armed, time)
         memory, command = self._command(memory, moves, time)
         wanted = _wanted(moves)
@@ -180,6 +171,13 @@ class Pipeline:
             command = replace(command, guarded=command.resting, stopped=False)
         held = self._why_held(memory, command, time) if status.armed else status.reason
         return memory, Outcome(status, held, wanted, command, lag, self.hands.command(memory.hands))
+
+    def observe(
+        self, memory: PipelineMemory, skeleton: Skeleton | None, time: float
+    ) -> tuple[PipelineMemory, GateStatus]:
+        """Do the first half of `advance`: what gate and stages make of the newest frame."""
+        gate_memory, status = self.gate.step(memory.gate, skeleton, time)
+        return replace(self._see(memory, skeleton, status.armed, time), gate=gate_memory), status
 
     def _command(
         self, memory: PipelineMemory, arms: list[Move], time: float

@@ -7,6 +7,7 @@ on a grid far finer than the stamps.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -83,7 +84,7 @@ def smoothness(
         raise ValueError(f"smoothness needs {FEWEST_STAMPS} or more rising stamps")
     mean = np.mean(arrays, axis=0)
     fine = np.linspace(times[0][0], times[0][-1], FINER * (len(times[0]) - 1) + 1)
-    spline = _smoothing_spline(times[0], mean, fine)
+    spline = _smoothing_spline(times[0].tobytes(), mean.tobytes(), fine.tobytes())
     found = np.asarray(curve(fine[:, np.newaxis]), dtype=np.float64).reshape(len(fine), -1)
     if found.shape != spline.shape or not np.isfinite(found).all():
         raise ValueError(f"the curve must answer with {mean.shape[1]} finite outputs")
@@ -98,16 +99,22 @@ def smoothness(
     )
 
 
-def _smoothing_spline(stamps: FloatArray, mean: FloatArray, asked: FloatArray) -> FloatArray:
+@lru_cache(maxsize=8)  # a sweep measures every network against one and the same
+def _smoothing_spline(stamp_bytes: bytes, mean_bytes: bytes, asked_bytes: bytes) -> FloatArray:
     """Return the spline through a mean curve (T, D), its penalty chosen by GCV, at stamps asked.
+
+    The arrays come as their bytes, by which they are found again; the answer is read-only.
 
     scipy seeks the penalty below T whatever the unit of time, so the spline gets stamps whose mean
     spacing is 1; and outputs relative to the first, so that those that never change stay exact.
     """
+    stamps, asked = np.frombuffer(stamp_bytes), np.frombuffer(asked_bytes)
+    mean = np.frombuffer(mean_bytes).reshape(len(stamps), -1)
     spacing = (stamps[-1] - stamps[0]) / (len(stamps) - 1)
     times, at = (stamps - stamps[0]) / spacing, (asked - stamps[0]) / spacing
     columns = [make_smoothing_spline(times, column)(at) for column in (mean - mean[0]).T]
     spline: FloatArray = np.column_stack(columns) + mean[0]
+    spline.setflags(write=False)
     return spline
 
 

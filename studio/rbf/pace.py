@@ -1,12 +1,13 @@
 """How fast a straightened line is walked: a positive rate, learned where demonstrations went."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from studio.rbf.basis import FloatArray
+from studio.rbf.basis import FloatArray, gaussians
 from studio.rbf.regressor import RBFRegressor
+from studio.rbf.validation import finite_array
 
 LARGEST_FACTOR = 5.0  # from the median; slower is a rest, which a field cannot time
 
@@ -21,9 +22,7 @@ class Pace:
 
     def rates(self, points: FloatArray) -> FloatArray:
         """Return the rate (n,) at straightened points (n, d)."""
-        logarithms = self.network.predict(points)
-        rates: FloatArray = np.exp(np.clip(logarithms, np.log(self.slowest), np.log(self.fastest)))
-        return np.clip(rates, self.slowest, self.fastest)
+        return self._bounded(self.network.predict(points))
 
     def descend(self, points: FloatArray, dt: float, steps: int) -> Iterator[FloatArray]:
         """Yield points (n, d) and where they are after each step: steps + 1 times.
@@ -31,14 +30,28 @@ class Pace:
         Runge-Kutta's fourth order in the logarithm of the distance. All four rates are positive,
         so the distance falls in every step, and the direction stays.
         """
-        yield points
+        yield finite_array(points, "X")
+        rates = self._asked_often()
         for _ in range(steps):
-            first = self.rates(points)
-            second = self.rates(_shrunk(points, 0.5 * dt * first))
-            third = self.rates(_shrunk(points, 0.5 * dt * second))
-            fourth = self.rates(_shrunk(points, dt * third))
+            first = rates(points)
+            second = rates(_shrunk(points, 0.5 * dt * first))
+            third = rates(_shrunk(points, 0.5 * dt * second))
+            fourth = rates(_shrunk(points, dt * third))
             points = _shrunk(points, dt * (first + 2.0 * (second + third) + fourth) / 6.0)
             yield points
+
+    def _asked_often(self) -> Callable[[FloatArray], FloatArray]:
+        """Return `rates`, the same to the bit, that looks at no input for what is wrong with it.
+
+        Points that shrink stay finite, and looking takes longer than answering.
+        """
+        network = self.network
+        answers = gaussians(network.centers_, network.width_)
+        return lambda points: self._bounded(answers(points) @ network.weights_ + network.bias_)
+
+    def _bounded(self, logarithms: FloatArray) -> FloatArray:
+        rates: FloatArray = np.exp(np.clip(logarithms, np.log(self.slowest), np.log(self.fastest)))
+        return np.clip(rates, self.slowest, self.fastest)
 
 
 def learn_pace(points: FloatArray, rates: FloatArray, neurons: int) -> Pace:

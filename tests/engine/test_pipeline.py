@@ -66,6 +66,24 @@ def test_nothing_moves_before_the_gate_is_armed() -> None:
     assert outcome.gate.armed
 
 
+@pytest.mark.parametrize("arms", ARMS)
+def test_observing_sees_what_a_whole_tick_sees(arms) -> None:
+    """The gate and what each arm wants do not depend on what is sent."""
+    rng = np.random.default_rng(4)
+    line = Pipeline.for_robot(load_robot(), arms)
+    whole = seen = line.start()
+    for i, state in enumerate((*ARMING, *ARMING)):
+        frame = None if i % 7 == 3 else noisy(i / 30, rng, hand=state)
+        whole, outcome = line.advance(whole, frame, i / 30)
+        seen, gate = line.observe(seen, frame, i / 30)
+        assert gate == outcome.gate
+        wanted = [arm.wanted for arm in seen.arms]
+        assert wanted == [arm.wanted for arm in whole.arms]
+        if gate.armed:
+            assert outcome.wanted == tuple(angle for each in wanted for angle in each)
+    assert outcome.gate.armed
+
+
 def test_a_refused_arm_holds_the_robot_with_words() -> None:
     line = pipeline(gate="open")
     memory = line.start()

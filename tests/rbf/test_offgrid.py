@@ -19,6 +19,17 @@ def test_the_spline_itself_is_as_smooth_as_itself(demonstrations):
     assert found.deviation.max() < 1e-7
 
 
+def test_another_demonstration_or_stamp_is_held_against_another_spline(demonstrations):
+    """A spline is kept for the next question; it may not answer for other demonstrations."""
+    taught = demonstrations(0)
+    for shift in (0.0, 1e-5, 0.0):
+        shifted = taught + shift * INDEX[:, np.newaxis]
+        spline = spline_of(shifted)
+        assert smoothness(lambda x, s=spline: s(x[:, 0]), shifted).deviation.max() < 1e-7
+        later = smoothness(lambda x, s=spline: s(x[:, 0] - 7.0), shifted, INDEX + 7.0)
+        assert later.deviation.max() < 1e-7
+
+
 def test_a_known_ripple_is_measured(demonstrations):
     taught = demonstrations(1)
     spline = spline_of(taught)

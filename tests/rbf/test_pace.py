@@ -26,6 +26,26 @@ def test_halving_the_step_changes_next_to_nothing():
     np.testing.assert_allclose(coarse, fine, atol=1e-4)
 
 
+def test_a_path_is_walked_at_the_rates_that_are_told_for_its_places():
+    """Two roads to one step: the rates that `descend` asks for itself are those of `rates`."""
+    generator = np.random.default_rng(2)
+    points = generator.normal(size=(60, 2))
+    pace = learn_pace(points, np.exp(generator.normal(size=60)), 12)
+    start = generator.normal(size=(7, 2))
+    asked = pace._asked_often()
+    for scale in (1e-200, 1e-3, 1.0, 1e3, 1e150):
+        assert asked(scale * start).tobytes() == pace.rates(scale * start).tobytes()
+    *_, after = pace.descend(start, 1e-6, 1)
+    np.testing.assert_allclose(
+        -np.log(after / start).mean(axis=1) / 1e-6, pace.rates(start), rtol=1e-4
+    )
+
+
+def test_what_is_no_number_is_refused():
+    with pytest.raises(ValueError, match="must be finite"):
+        next(radial(1.0).descend(np.array([[np.inf]]), 0.1, 1))
+
+
 def test_rates_stay_between_their_bounds_everywhere():
     generator = np.random.default_rng(1)
     points = generator.normal(size=(50, 2))

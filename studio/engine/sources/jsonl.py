@@ -59,6 +59,8 @@ from studio.engine.sources.strict_json import (
 from studio.engine.sources.whole_file import written_whole
 
 LAYOUT_VERSION = 1
+_JOINTS = tuple(Joint)  # to go through an enumeration itself is slow, and recordings are long
+_TRACKING, _HAND_STATES = frozenset(map(int, Tracking)), frozenset(map(str, HandState))
 
 
 def skeleton_to_dict(skeleton: Skeleton) -> dict[str, object]:
@@ -261,8 +263,8 @@ def _parse_frame(value: object) -> tuple[float, Skeleton | None]:
 
 def _tracking(value: object) -> NDArray[np.int8]:
     states = as_list(value, '"tracking" states', JOINT_COUNT)
-    for joint, state in zip(Joint, states, strict=True):
-        if type(state) is not int or state not in tuple(Tracking):
+    for joint, state in zip(_JOINTS, states, strict=True):
+        if type(state) is not int or state not in _TRACKING:
             raise StudioError(
                 f"joint {joint.value} ({joint.name.lower()}): expected tracking 0, 1 or 2, "
                 f"found {shown(state)}"
@@ -273,7 +275,7 @@ def _tracking(value: object) -> NDArray[np.int8]:
 def _hand(value: object, what: str) -> Hand:
     hand = as_object(value, what)
     state = hand.get("state")
-    if not isinstance(state, str) or state not in tuple(HandState):
+    if not isinstance(state, str) or state not in _HAND_STATES:
         words = ", ".join(HandState)
         raise StudioError(f"expected {what}'s state as one of {words}, found {shown(state)}")
     confidence = as_number(hand.get("confidence"), f"{what}'s confidence")
