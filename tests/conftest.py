@@ -2,5 +2,16 @@
 
 import os
 
-# Two test processes on two cores: threads of the linear algebra would only wait for each other.
+# Several test processes share few cores: threads of linear algebra would only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+def pytest_xdist_auto_num_workers() -> int | None:
+    """Return one more than there are cores: a third of all tests' time is waiting, not computing.
+
+    Tests wait for a browser, for another process, for a second to pass. None leaves the answer to
+    pytest-xdist, where the environment tells it.
+    """
+    if "PYTEST_XDIST_AUTO_NUM_WORKERS" in os.environ:
+        return None
+    return (os.cpu_count() or 1) + 1

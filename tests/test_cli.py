@@ -1,4 +1,8 @@
-"""The commands as a shell sees them: exit status, one JSON object, errors in words."""
+"""The commands as a shell sees them: exit status, one JSON object, errors in words.
+
+Each is a process at least once, here or in the tests of its own; all else is asked of `main` in
+this process, which has started already.
+"""
 
 import gzip
 import json
@@ -48,11 +52,15 @@ def here(capfd):
     return run
 
 
-def test_the_headless_demo_prints_one_object_and_the_same_one(tmp_path: Path) -> None:
+def test_the_headless_demo_prints_one_object_and_the_same_one(
+    tmp_path: Path, here, monkeypatch
+) -> None:
+    """In a process of its own and in this one, which has done other things before."""
     command = ("demo", "--headless", "--json", "--demonstrations", "2", "--mapping", "paper")
-    first, second = studio(*command, cwd=tmp_path), studio(*command, cwd=tmp_path)
-    assert first.returncode == 0
-    assert first.stdout == second.stdout
+    monkeypatch.chdir(tmp_path)
+    first, second = studio(*command, cwd=tmp_path), here(*command)
+    assert first.returncode == second[0] == 0
+    assert first.stdout == second[1]
     found = json.loads(first.stdout)
     assert found["joints"] == ["left_s0", "left_s1", "left_e1"]
     assert found["reproduction"]["block_down"] is True
@@ -61,18 +69,18 @@ def test_the_headless_demo_prints_one_object_and_the_same_one(tmp_path: Path) ->
     assert list(tmp_path.iterdir()) == []
 
 
-def test_another_scene_is_asked_for_by_its_name(tmp_path: Path) -> None:
+def test_another_scene_is_asked_for_by_its_name(here) -> None:
     command = ("demo", "--headless", "--json", "--demonstrations", "1", "--scene")
-    found = json.loads(studio(*command, "two-in-order", cwd=tmp_path).stdout)
+    found = json.loads(here(*command, "two-in-order")[1])
     assert found["scene"] == "two-in-order"
     assert found["reproduction"]["task_done"] is True
     assert found["reproduction"]["missing"] == ""
-    refused = studio(*command, "two-in-a-row", cwd=tmp_path)
-    assert refused.returncode == 1
-    assert "two-in-order" in json.loads(refused.stdout)["error"]
+    status, printed, _ = here(*command, "two-in-a-row")
+    assert status == 1
+    assert "two-in-order" in json.loads(printed)["error"]
 
 
-def test_teaching_from_the_samples(tmp_path: Path) -> None:
+def test_teaching_from_the_samples(tmp_path: Path, here) -> None:
     samples = sorted(samples_folder().glob("*.mcap"))
     assert len(samples) == 4
     done = studio("teach", *samples, "--json", cwd=tmp_path)
@@ -80,13 +88,13 @@ def test_teaching_from_the_samples(tmp_path: Path) -> None:
     found = json.loads(done.stdout)
     assert found["reproduction"]["block_down"] is True
     assert all(each["block_down"] for each in found["demonstrations"])
-    saved = studio(
+    status, printed, _ = here(
         "teach", samples_folder() / "teaches-the-push.jsonl", "--save", tmp_path / "kept"
     )
-    assert saved.returncode == 0
-    assert "Block down: alone yes" in saved.stdout
-    again = studio("teach", tmp_path / "kept" / "demonstration-001.mcap", "--json")
-    assert json.loads(again.stdout)["files"][0]["armed_frames"] > 150
+    assert status == 0
+    assert "Block down: alone yes" in printed
+    _, printed, _ = here("teach", tmp_path / "kept" / "demonstration-001.mcap", "--json")
+    assert json.loads(printed)["files"][0]["armed_frames"] > 150
 
 
 def test_both_arms_are_taught_in_a_mirror_and_calibrated_in_words(here) -> None:
@@ -106,27 +114,27 @@ def test_both_arms_are_taught_in_a_mirror_and_calibrated_in_words(here) -> None:
         assert words in said
 
 
-def test_where_nothing_arms() -> None:
-    done = studio("teach", samples_folder() / "never-arms.jsonl", "--json")
-    assert done.returncode == 1
-    found = json.loads(done.stdout)
+def test_where_nothing_arms(here) -> None:
+    status, printed, said = here("teach", samples_folder() / "never-arms.jsonl", "--json")
+    assert status == 1
+    found = json.loads(printed)
     assert found["files"][0]["armed"] == []
     assert "waiting for Lasso" in found["error"]
-    assert "waiting for Lasso" in done.stderr
+    assert "waiting for Lasso" in said
 
 
-def test_a_file_without_hand_states_moves_only_on_request(tmp_path: Path) -> None:
+def test_a_file_without_hand_states_moves_only_on_request(tmp_path: Path, here) -> None:
     path = tmp_path / "table.csv"
     rows = [",".join(f"{x:.5f}" for x in s.positions.ravel()) for s in demonstrate(0, 1)]
     path.write_text("\n".join(rows))
-    still = studio("teach", path, "--json")
-    assert still.returncode == 1
-    assert "--gate open" in json.loads(still.stdout)["error"]
-    moved = json.loads(studio("teach", path, "--gate", "open", "--json").stdout)
+    status, printed, _ = here("teach", path, "--json")
+    assert status == 1
+    assert "--gate open" in json.loads(printed)["error"]
+    moved = json.loads(here("teach", path, "--gate", "open", "--json")[1])
     assert moved["files"][0]["armed_frames"] == moved["files"][0]["frames"]
 
 
-def test_inspect_tells_what_is_in_a_file(tmp_path: Path) -> None:
+def test_inspect_tells_what_is_in_a_file(here) -> None:
     found = json.loads(studio("inspect", samples_folder() / "never-arms.jsonl", "--json").stdout)
     assert set(found) == {
         *("format", "frames", "seconds", "bodies", "left_hand", "right_hand", "tracking"),
@@ -136,7 +144,7 @@ def test_inspect_tells_what_is_in_a_file(tmp_path: Path) -> None:
     assert found["left_hand"]["closed"] > 0
     assert found["gate"]["armed"] == []
     asked = ("--arm", "both", "--mapping", "paper", "--json")
-    told = json.loads(studio("inspect", samples_folder() / "demonstration-1.mcap", *asked).stdout)
+    told = json.loads(here("inspect", samples_folder() / "demonstration-1.mcap", *asked)[1])
     assert told["format"] == "studio mcap 1"
     assert told["recorded"]["gate"]["armed_frames"] > 100
     assert [(arm["arm"], arm["mapping"]) for arm in told["motion"]] == [
@@ -171,7 +179,24 @@ def test_broken_files_give_words_and_no_traceback(tmp_path: Path, here) -> None:
             assert status == 1, command
             assert str(path) in said
             assert command[0] == "inspect" or json.loads(printed)["files"] == []
-    assert studio("teach", tmp_path / "empty").returncode == 1
+    ended = studio("teach", tmp_path / "empty")  # as a process: nothing follows the words
+    assert (ended.returncode, ended.stdout) == (1, "")
+
+
+@pytest.mark.parametrize(
+    ("command", "status", "told"),
+    [
+        (("convert", samples_folder() / "never-arms.jsonl", "people.mcap"), 0, "frames"),
+        (("export", "missing.zip", "--to", "results"), 1, "missing.zip"),
+        (("link", "check", "nowhere"), 1, "nowhere"),
+        (("webcam", "--help"), 0, "usage: studio webcam"),
+    ],
+    ids=lambda each: each[0] if isinstance(each, tuple) else "",
+)
+def test_commands_that_no_other_test_starts_as_processes(command, status, told, tmp_path) -> None:
+    done = studio(*command, cwd=tmp_path)
+    assert done.returncode == status, done.stderr
+    assert told in (done.stderr if status else done.stdout)
 
 
 @pytest.mark.parametrize(
@@ -181,6 +206,15 @@ def test_help_reads(command: tuple[str, ...], here) -> None:
     status, printed, _ = here(*command, "--help")
     assert status == 0
     assert "usage: studio" in printed
+
+
+def test_no_command_waits_for_what_only_some_need() -> None:
+    """Half of what a process of ours waited for was loading filters that measuring needs."""
+    loaded = "import sys, studio.cli; print('scipy.signal' in sys.modules, 'viser' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", loaded], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "False False\n"
 
 
 def test_the_help_of_a_switch_says_what_it_switches(here) -> None:
@@ -204,18 +238,18 @@ def test_a_reader_that_leaves_gives_no_traceback() -> None:
     assert done.stderr == ""
 
 
-def test_teaching_from_no_file_says_what_is_missing() -> None:
-    done = studio("teach")
-    assert done.returncode == 1
-    assert "studio teach FILE" in done.stderr
+def test_teaching_from_no_file_says_what_is_missing(here) -> None:
+    status, _, said = here("teach")
+    assert status == 1
+    assert "studio teach FILE" in said
 
 
-def test_an_open_gate_is_not_what_is_missing_where_nobody_is_seen(tmp_path: Path) -> None:
+def test_an_open_gate_is_not_what_is_missing_where_nobody_is_seen(tmp_path: Path, here) -> None:
     (tmp_path / "empty.json").write_text('{"version": "0.3", "frames": [{"bodies": []}]}')
-    done = studio("teach", tmp_path / "empty.json", "--gate", "open")
-    assert done.returncode == 1
-    assert "nobody in sight" in done.stderr
-    assert "--gate open" not in done.stderr
+    status, _, said = here("teach", tmp_path / "empty.json", "--gate", "open")
+    assert status == 1
+    assert "nobody in sight" in said
+    assert "--gate open" not in said
 
 
 def test_a_sweep_prints_one_object_and_writes_a_page_that_needs_no_network(tmp_path: Path) -> None:
@@ -261,9 +295,9 @@ needs_real_data = pytest.mark.skipif(not REAL.is_dir(), reason=f"needs real reco
 
 
 @needs_real_data
-def test_the_one_true_sequence_in_a_real_recording_arms_and_teaches() -> None:
-    done = studio("teach", REAL / "kinect2-socket" / "hands_gestures.json.gz", "--json")
-    (file,) = json.loads(done.stdout)["files"]
+def test_the_one_true_sequence_in_a_real_recording_arms_and_teaches(here) -> None:
+    _, printed, _ = here("teach", REAL / "kinect2-socket" / "hands_gestures.json.gz", "--json")
+    (file,) = json.loads(printed)["files"]
     ((first, last),) = file["armed"]
     assert abs(first - 485) <= 3
     assert last == file["frames"] - 1 == 534
@@ -271,25 +305,25 @@ def test_the_one_true_sequence_in_a_real_recording_arms_and_teaches() -> None:
 
 @needs_real_data
 @pytest.mark.parametrize("name", ["test_record.json", "hand_flap.json.gz"])
-def test_real_recordings_without_the_sequence_never_arm(name: str) -> None:
-    done = studio("teach", REAL / "kinect2-socket" / name, "--json")
-    assert done.returncode == 1
-    assert json.loads(done.stdout)["files"][0]["armed"] == []
+def test_real_recordings_without_the_sequence_never_arm(name: str, here) -> None:
+    status, printed, _ = here("teach", REAL / "kinect2-socket" / name, "--json")
+    assert status == 1
+    assert json.loads(printed)["files"][0]["armed"] == []
 
 
 @needs_real_data
-def test_a_real_recording_without_hand_states_stays_still_until_the_gate_is_opened() -> None:
+def test_a_real_recording_without_hand_states_stays_still_until_the_gate_is_opened(here) -> None:
     path = REAL / "labanotation" / "Ges01_wavehand.csv"
-    assert studio("teach", path, "--json").returncode == 1
-    opened = studio("teach", path, "--gate", "open", "--json")
-    assert json.loads(opened.stdout)["files"][0]["armed_frames"] == 154
+    assert here("teach", path, "--json")[0] == 1
+    _, printed, _ = here("teach", path, "--gate", "open", "--json")
+    assert json.loads(printed)["files"][0]["armed_frames"] == 154
 
 
 @needs_real_data
-def test_every_real_file_is_inspected_or_refused_in_words() -> None:
+def test_every_real_file_is_inspected_or_refused_in_words(here) -> None:
     for path in sorted(p for p in REAL.glob("*/*") if p.is_file()):
-        done = studio("inspect", path, "--json")
-        if done.returncode == 0:
-            assert json.loads(done.stdout)["frames"] > 0
+        status, printed, said = here("inspect", path, "--json")
+        if status == 0:
+            assert json.loads(printed)["frames"] > 0
         else:
-            assert str(path) in done.stderr
+            assert str(path) in said

@@ -17,12 +17,13 @@ import pytest
 
 from studio.cli import main
 from studio.engine import clock, commands
-from studio.engine.clock import LiveLoop
+from studio.engine.clock import BADLY_LATE, LiveLoop
 from studio.engine.live.access import Address
 from studio.engine.live.listener import MOST_CONNECTIONS, Listener
 from studio.engine.live.reception import FASTEST, LARGEST_MESSAGE, SILENCE
 from studio.engine.live.source import LiveSource
 from studio.engine.resources import samples_folder
+from studio.engine.robot import CONTROL_PERIOD
 from studio.engine.session import Session
 from studio.engine.skeleton import HandState
 from studio.engine.snapshot import Mode
@@ -84,14 +85,22 @@ def test_play_sends_every_frame_when_it_is_due(here, live, tmp_path, monkeypatch
     path = tmp_path / "short.jsonl"
     write_skeletons(path, hand_stream(SIGNS[:30]))
     dues: list[float] = []
-    monkeypatch.setattr("studio.live_commands.wait_until", lambda due, _: dues.append(due))
+    told: list[str] = []
+
+    def noted(due: float, _) -> None:
+        dues.append(due)
+        if len(dues) == 30:  # all but the last are on their way, which takes no time here
+            eventually(lambda: any("driving" in words for words in told))
+
+    monkeypatch.setattr("studio.live_commands.wait_until", noted)
+    monkeypatch.setattr("studio.live_commands.log", told.append)
     with Listener(live, ANY_PORT) as listener:
         url = listener.address.url
-        code, printed, said = here("play", path, "--to", url, "--speed", "2", "--format", kind)
+        code, printed, _ = here("play", path, "--to", url, "--speed", "2", "--format", kind)
         eventually(lambda: live.status().publishers == 0)
     assert code == 0
     assert "sent 30 frames" in printed
-    assert "status: driving" in said
+    assert "status: driving" in " ".join(told)
     assert live.status().counts.received == 30
     assert np.allclose(np.array(dues) - dues[0], np.arange(30) / 60, atol=1e-6)
 
@@ -178,7 +187,12 @@ def test_the_environment_holds_the_token_where_nobody_reads_it(here, live, signs
 
 def test_play_says_why_the_studio_hung_up(here, live, signs: Path) -> None:
     with Listener(live, ANY_PORT) as listener:
-        closing = threading.Timer(1.0, lambda: listener.__exit__(None, None, None))
+
+        def hang_up() -> None:
+            eventually(lambda: live.status().counts.received > 5)
+            listener.__exit__(None, None, None)
+
+        closing = threading.Thread(target=hang_up)
         closing.start()
         code, _, said = here("play", signs, "--to", listener.address.url)
         closing.join()
@@ -186,25 +200,22 @@ def test_play_says_why_the_studio_hung_up(here, live, signs: Path) -> None:
     assert re.search(r"ended the connection after \d+ frames", said)
 
 
-def test_listen_tells_counts_and_keeps_what_arrives(tmp_path: Path) -> None:
+def test_listen_tells_counts_and_keeps_what_arrives(here, tmp_path: Path) -> None:
     kept, signs = tmp_path / "kept.jsonl", tmp_path / "signs.jsonl"
     write_skeletons(signs, hand_stream(SIGNS[:120]))
     with process("listen", "--listen", "127.0.0.1:0", "--record", kept, "--json") as listening:
         url = re.search(r"ws://\S+", listening.stderr.readline())[0]
-        played = subprocess.run(
-            [sys.executable, "-m", "studio", "play", signs, "--to", url, "--speed", "3"],
-            env={**os.environ, "PYTHONPATH": str(ROOT)},
-            check=True,
-            capture_output=True,
-        )
-        assert b"sent 120 frames" in played.stdout
+        code, played, _ = here("play", signs, "--to", url, "--speed", "3")
+        assert code == 0
+        assert "sent 120 frames" in played
         listening.send_signal(signal.SIGINT)
         printed, said = listening.communicate(timeout=20.0)
     assert listening.returncode == 0
     found = json.loads(printed)
     counts = found["counts"]
     assert counts["received"] == 120
-    assert counts["used"] + counts["dropped"] == 120
+    waiting = 120 - counts["used"] - counts["dropped"]
+    assert waiting in (0, 1)  # the newest one, where the end came before the next tick
     assert found["recorded"] == {"file": str(kept), "frames": 120}
     assert "drives with studio jsonl" in said
     before, after = read_skeletons(signs), read_skeletons(kept)
@@ -249,10 +260,10 @@ def test_a_killed_process_leaves_the_studio_running_and_disarmed(tmp_path, live,
                 os.kill(playing.pid, signal.SIGKILL)
                 eventually(lambda: session.snapshot.mode is Mode.WATCHING)
             assert session.snapshot.live.driver == ""
-        before, begun = session.snapshot.time, time.monotonic()
-        time.sleep(0.5)
-        ticked = (session.snapshot.time - before) / (time.monotonic() - begun)
-        assert 0.5 < ticked < 1.5  # it ticks on, at the pace of the clock
+        begun, before = time.monotonic(), session.snapshot.time
+        eventually(lambda: session.snapshot.time > before + 0.5)
+        ticked = session.snapshot.time - before  # it ticks on, and no faster than the clock
+        assert ticked < time.monotonic() - begun + BADLY_LATE + CONTROL_PERIOD
 
 
 def test_the_page_on_live_streams_tells_the_limits() -> None:

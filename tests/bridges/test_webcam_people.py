@@ -26,7 +26,7 @@ from tests.bridges.listening import listening
 pytestmark = pytest.mark.webcam
 
 ASTRONAUT = Path(skimage.__file__).parent / "data" / "astronaut.png"
-PICTURES, RATE = 40, 20.0
+PICTURES, RATE = 24, 20.0
 
 # Run by the tracker's Python, whose OpenCV writes a video in which the camera sways. "Mirrored" is
 # what a driver does that shows people as they see themselves.

@@ -20,6 +20,7 @@ from tests.engine.export.materials import listed
 from tests.engine.long_work import PATIENCE
 
 LONG = 4.0 * PATIENCE  # [s] for what another process reads or writes
+PAUSE = 0.01  # [s] between ticks, so that the other process gets its turn
 
 
 @pytest.fixture
@@ -39,6 +40,7 @@ def until(session: Session, reached, most: float = LONG) -> Snapshot:
     deadline = time.monotonic() + most
     while not reached(now := session.tick()):
         assert time.monotonic() < deadline, now.message.text
+        time.sleep(PAUSE)
     return now
 
 
@@ -109,7 +111,7 @@ def test_the_session_ticks_on_while_files_are_written(session: Session) -> None:
     while session.snapshot.export.running:
         session.tick()
         ticks += 1
-        time.sleep(0.01)
+        time.sleep(PAUSE)
         assert ticks < 6000
     assert ticks > 20
     assert {path.name for path in session.snapshot.export.files} == {"data.npz", "model.json"}

@@ -1,6 +1,7 @@
 """The robot's links made light: drawn once each, and to the eye what the maker gave."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -21,6 +22,11 @@ def look_of(link: str) -> Look:
     return next(look for look in looks(load_robot()) if link in look.links)
 
 
+@cache
+def light_one(link: str) -> Surface:
+    return look_of(link).surface(FINE)
+
+
 def outline(mesh: Triangles | Surface, view: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return what a mesh covers, seen along the last axis of a view (3, 3)."""
     pixels = PIXELS / 2.0 + (mesh.vertices @ view.T)[:, :2] / PIXEL
@@ -31,9 +37,9 @@ def outline(mesh: Triangles | Surface, view: NDArray[np.float64]) -> NDArray[np.
     return np.asarray(image)
 
 
-def outlines(link: str, detail: float) -> list[tuple[float, float]]:
+def outlines(link: str, light: Surface) -> list[tuple[float, float]]:
     """Return from four sides what only one of both covers: as a share, and per outline [m]."""
-    full, light = look_of(link).triangles(), look_of(link).surface(detail)
+    full = look_of(link).triangles()
     turned = np.linalg.qr(np.array([[1.0, 2.0, 3.0], [-2.0, 1.0, 0.5], [0.3, 0.1, 1.0]]))[0]
     found = []
     for view in (np.eye(3), np.eye(3)[[1, 2, 0]], np.eye(3)[[2, 0, 1]], turned):
@@ -45,20 +51,21 @@ def outlines(link: str, detail: float) -> list[tuple[float, float]]:
 
 @pytest.mark.parametrize("link", LINKS)
 def test_a_light_link_has_the_outline_of_the_full_one(link: str) -> None:
-    shares, distances = zip(*outlines(link, FINE), strict=True)
+    shares, distances = zip(*outlines(link, light_one(link)), strict=True)
     assert max(shares) < 0.01
     assert max(distances) < FINE
 
 
 def test_a_link_made_too_light_has_not() -> None:
-    shares, distances = zip(*outlines("left_lower_elbow", 20.0 * FINE), strict=True)
+    link = "left_lower_elbow"
+    shares, distances = zip(*outlines(link, look_of(link).surface(20.0 * FINE)), strict=True)
     assert max(shares) > 0.02
     assert max(distances) > FINE
 
 
 @pytest.mark.parametrize("link", LINKS)
 def test_a_light_link_is_light_and_keeps_size_and_colors(link: str) -> None:
-    full, light = look_of(link).triangles(), look_of(link).surface(FINE)
+    full, light = look_of(link).triangles(), light_one(link)
     assert len(light.faces) < 0.6 * len(full.faces)
     for extreme in (np.min, np.max):
         np.testing.assert_allclose(

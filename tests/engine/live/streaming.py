@@ -61,7 +61,7 @@ def answers(connection: ClientConnection, least: int = 1) -> list[dict]:
             return heard
 
 
-def eventually(reached: Callable[[], bool], seconds: float = 5.0) -> None:
+def eventually(reached: Callable[[], bool], seconds: float = 30.0) -> None:
     deadline = time.monotonic() + seconds
     while not reached():
         assert time.monotonic() < deadline, "it never came to that"

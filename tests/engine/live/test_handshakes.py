@@ -66,11 +66,12 @@ def test_the_oldest_go_and_publishers_come_in(monkeypatch) -> None:
 
 
 LISTENING = """
-import resource
+import asyncio, resource
 from studio.engine import clock
 from studio.engine.live.access import Address
 from studio.engine.live.listener import Listener
 from studio.engine.live.source import LiveSource
+asyncio.constants.ACCEPT_RETRY_DELAY = 0.2  # of a second, which asyncio waits otherwise
 resource.setrlimit(resource.RLIMIT_NOFILE, (32, 32))
 with Listener(LiveSource(clock.now), Address("127.0.0.1", 0)) as listener:
     print(listener.address.port, flush=True)
@@ -91,7 +92,7 @@ def test_a_system_without_more_files_is_told_once_and_got_over() -> None:
     try:
         address = Address("127.0.0.1", int(process.stdout.readline()))
         with half_open(address, 60):
-            time.sleep(1.5)  # it is tried a second time
+            time.sleep(0.5)  # it is tried a second time
         with publisher(address.url) as sensor:  # as soon as files are free again
             assert answers(sensor)[0]["status"] == "ready"
         _, said = process.communicate("\n", timeout=20.0)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from studio.engine.follow import follow
+from studio.engine.follow import follow, newest_frames
 from studio.engine.pipeline import Pipeline
-from studio.engine.robot import load_robot
+from studio.engine.robot import CONTROL_PERIOD, load_robot
 from studio.engine.skeleton import HandState, Joint, Tracking
 from studio.engine.sources.demonstrator import FULL_SEQUENCE, demonstrate
 from tests.engine.people import runs_of
@@ -50,10 +50,12 @@ def test_other_signs_never_arm(signs) -> None:
 
 
 def test_it_arms_once_in_every_take_and_disarms_itself(takes) -> None:
+    pipeline = Pipeline.for_robot(load_robot(), "left")
     for take in takes:
-        armed = [
-            s.gate.armed for s in follow(take, Pipeline.for_robot(load_robot(), "left")).samples
-        ]
+        armed, memory = [], pipeline.start()
+        for tick, skeleton in enumerate(newest_frames(take)):
+            memory, gate = pipeline.observe(memory, skeleton, tick * CONTROL_PERIOD)
+            armed.append(gate.armed)
         changes = np.flatnonzero(np.diff(np.array(armed, dtype=int)))
         assert len(changes) == 2
         assert not armed[-1]
