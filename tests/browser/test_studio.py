@@ -81,11 +81,12 @@ def test_a_reload_brings_back_where_one_was(studio: Studio) -> None:
     studio.loop.session._listed.add(listed(2).takes)
     entry = studio.waits(lambda now: len(now.entries) == 2).entries[1]
     studio.loop.session.post(commands.Choose(entry.number))
+    studio.loop.session.post(commands.SetSpeed(0.25))  # not over before a slow page pauses it
     studio.loop.session.post(commands.PlayDemonstration())
     studio.waits(lambda now: now.mode is Mode.PLAYING)
-    studio.page.keyboard.press("Space")
+    studio.press("❚❚ Pause")
     paused = studio.waits(lambda now: not now.compare.timeline.is_playing).time
-    studio.page.keyboard.press("ArrowRight")
+    studio.press("step ▶")
     at = studio.waits(lambda now: now.time > paused).time
     studio.open_step("3 Learn")
     neurons = studio.page.get_by_label("Neurons", exact=True)
