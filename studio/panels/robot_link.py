@@ -16,7 +16,8 @@ from studio.panels import markup
 from studio.panels.inputs import Post, on_choice, show_value
 from studio.panels.synced import Synced
 
-SAFE = "Nobody is near, the desk is clear, the e-stop is at hand"
+SAFE = "I made sure"
+_OF_WHAT = "Before its first move: nobody is near, the desk is clear, the e-stop is at hand."
 _NOT_CONNECTED = "Connect a robot first."
 
 
@@ -43,6 +44,7 @@ class RobotPanel:
         self._leave.on_click(lambda _: post(commands.DisconnectLink()))
         self._enable = gui.add_button("Enable its motors", icon=viser.Icon.POWER)
         self._enable.on_click(lambda _: post(commands.EnableLink()))
+        gui.add_html(markup.note(_OF_WHAT))
         self._safe = gui.add_checkbox(SAFE, False)
         self._ticked = _Written(self._safe, may_act)
         self._start = gui.add_button(
