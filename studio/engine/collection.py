@@ -27,6 +27,7 @@ from studio.engine.mcap_log import is_mcap
 from studio.engine.recording import Recording
 from studio.engine.recordings_folder import FolderFile, look_into
 from studio.engine.robot import CONTROL_RATE
+from studio.engine.skeleton import SIDES, HandState
 from studio.engine.trash import Trash
 
 SAVE_EVERY = CONTROL_RATE  # ticks between two writings of changed cards
@@ -219,7 +220,15 @@ class Collection:
 
 
 def why_nothing_armed(recording: Recording, name: str) -> str:
-    """Return why a recording teaches nothing: what held the robot most of the time."""
+    """Return why a recording teaches nothing: what held the robot most of the time, or no signs."""
+    bodies = [sample.skeleton for sample in recording.samples if sample.skeleton is not None]
+    if bodies and all(
+        body.hand(side).state is HandState.UNKNOWN for body in bodies for side in SIDES
+    ):
+        return (
+            f"{name}: nothing armed: its source tells no hand states. Choose the open gate, which "
+            "needs no signs, then record it again"
+        )
     held = Counter(sample.held for sample in recording.samples if sample.held)
     why = held.most_common(1)[0][0] if held else "it ended too soon"
     return f"{name}: nothing armed for a second or more: {why}"

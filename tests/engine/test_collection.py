@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from studio.engine.mcap_file import read_recording, write_recording
 from studio.engine.mcap_log import is_mcap
 from studio.engine.recording import Recording
 from studio.engine.resources import samples_folder
+from studio.engine.skeleton import Hand
 from tests.engine.cards_at_hand import sample, takes
 
 
@@ -152,6 +154,17 @@ def test_what_was_recorded_again_takes_the_place_of_the_old_one(desk: Desk) -> N
     assert desk.collection.listed.chosen == 4
     desk.collection.take(commands.Restore())
     assert desk.names[1:3] == ["demonstration-002", "demonstration-004"]
+
+
+def test_a_recording_without_hand_states_is_told_of_the_open_gate(desk: Desk) -> None:
+    recorded = sample()
+    still = [
+        replace(each, skeleton=replace(each.skeleton, left_hand=Hand(), right_hand=Hand()))
+        for each in recorded.samples[:20]
+        if each.skeleton is not None
+    ]
+    with pytest.raises(StudioError, match="Choose the open gate"):
+        desk.collection.add(Recording(recorded.info, tuple(still)), "mute", desk.folder / "m.mcap")
 
 
 def test_recording_again_what_arms_nothing_keeps_the_old_one(desk: Desk) -> None:
