@@ -15,6 +15,7 @@ _BLOCK_COLORS = ((244, 180, 40), (120, 150, 175), (150, 165, 120))
 _DESK_COLOR, _LEG = (188, 160, 128), 0.05  # [m]
 STILL = 1e-5  # [m] what moved less is not drawn anew
 _SKY, _GROUND = (238, 241, 245), (190, 201, 211)
+_LAMP = (3.0, -1.0, 2.0)  # [m] before Baxter, and to its right
 
 
 class Furniture:
@@ -74,6 +75,11 @@ def set_the_stage(server: viser.ViserServer) -> None:
     camera.position, camera.look_at = ALONE.position, ALONE.look_at
     camera.fov = math.radians(43.0)
     scene = server.scene
+    # No environment map: without a graphics card it takes seconds to work out, and viser draws
+    # nothing to be seen before it is.
+    scene.configure_environment_map(None)
+    scene.add_light_hemisphere("/sky", ground_color=_GROUND, intensity=1.9)
+    scene.add_light_directional("/lamp", position=_LAMP, intensity=1.2)
     backdrop = np.linspace(_SKY, _GROUND, 64).astype(np.uint8)[:, None, :]
     scene.set_background_image(np.repeat(backdrop, 4, axis=1), format="png")
     scene.add_grid("/floor", width=10.0, height=10.0, shadow_opacity=0.25)
