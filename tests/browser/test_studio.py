@@ -38,7 +38,8 @@ def test_a_broken_file_and_stop(studio: Studio, tmp_path: Path) -> None:
     studio.shows("Source: demonstrator")
     studio.open_step("2 Teach")
     studio.press("Record")
-    studio.shows("RECORDING")
+    studio.waits(lambda now: now.mode is Mode.RECORDING)
+    studio.shows("● RECORDING")
     expect(studio.button("Record")).to_be_disabled()
     studio.page.keyboard.press("Escape")
     studio.shows("IDLE")
@@ -168,8 +169,9 @@ def count_red(png: bytes) -> int:
     return int((red - np.maximum(blue, green) > 60).sum())
 
 
-def test_a_browser_without_webgl_is_told_why(studio: Studio, page: Page) -> None:
+def test_a_browser_without_webgl_is_told_why(studio: Studio) -> None:
     """A browser whose WebGL is off, as far as a page can see."""
+    page = studio.page.context.new_page()  # on which viser may complain before it is left
     page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
     page.goto(studio.app.url)
     expect(page.get_by_text("This browser cannot draw Baxter")).to_be_visible()
