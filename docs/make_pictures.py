@@ -228,7 +228,7 @@ def take_both(page: Page, name: str) -> None:
         page.evaluate(DRAWN)
         page.screenshot(path=PICTURES / f"{name}-{theme}.png")
         print(f"{name}-{theme}.png")
-        page.keyboard.press("d")
+        page.keyboard.press("n")
 
 
 if __name__ == "__main__":

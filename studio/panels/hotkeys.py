@@ -21,7 +21,7 @@ from studio.panels.readiness import (
 )
 
 _Special = Literal["escape", "space", "arrowright", "arrowleft"]
-_KeyName = _Special | Literal["B", "D", "R", "T", "Z", "1", "2", "3", "4", "5"]
+_KeyName = _Special | Literal["B", "N", "R", "T", "Z", "1", "2", "3", "4", "5"]
 JUMP = 15  # ticks: half a second
 
 
@@ -35,7 +35,7 @@ class Key:
         "arrowright",
         "arrowleft",
         "B",
-        "D",
+        "N",
         "R",
         "T",
         "Z",
@@ -139,7 +139,7 @@ _PAGE_KEYS = {
     "3 Learn": Key("3", "3"),
     "4 Compare": Key("4", "4"),
     "5 Export": Key("5", "5"),
-    "Dark or light": Key("D", "D"),
+    "Dark or light": Key("N", "N"),
 }
 
 

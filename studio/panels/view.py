@@ -22,7 +22,7 @@ class ViewPanel:
     def __init__(self, gui: viser.GuiApi, may_change: Callable[[], bool]) -> None:
         self._gui, self._may_change = gui, may_change
         self.is_dark = False
-        self._dark = gui.add_checkbox("Dark page", False, hint="For a dark room; key D")
+        self._dark = gui.add_checkbox("Dark page", False, hint="For a dark room; key N")
         on_choice(self._dark, self._choose)
         self._keys = gui.add_html("")
         self._configure()
