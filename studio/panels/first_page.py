@@ -16,6 +16,14 @@ _CHECK = f"""<script>
 }})();
 </script>"""
 
+# Keys of the palette are heard at the root element; viser's camera hears them above it, at the
+# document, and would turn with every step on the timeline.
+_STEPS_ONLY = """<script>
+document.documentElement.addEventListener("keydown", function (event) {
+  if (event.code === "ArrowLeft" || event.code === "ArrowRight") event.stopPropagation();
+});
+</script>"""
+
 NO_WEBGL = f"""<!doctype html>
 <html lang="en">
 <head>
@@ -55,7 +63,7 @@ numbers.</li>
 
 
 def checked(page: str) -> str:
-    """Return viser's page under our title, and first in it what notices a missing WebGL 2."""
+    """Return viser's page under our title, and first in it our own two scripts."""
     head = page.find("<head>")
     if head < 0:
         return page
@@ -63,5 +71,6 @@ def checked(page: str) -> str:
     return (
         page[:begin]
         + _CHECK
+        + _STEPS_ONLY
         + page[begin:].replace("<title>Viser</title>", f"<title>{TITLE}</title>", 1)
     )

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 from playwright.sync_api import Page
 
@@ -31,9 +32,14 @@ def test_play_pause_and_step_by_button_and_by_key(studio: Studio) -> None:
     studio.press("step ▶")
     on = studio.waits(lambda now: now.time != paused).time
     assert 0.0 < on - paused < CONTROL_PERIOD * 1.01
-    studio.page.keyboard.press("ArrowLeft")
+    (client,) = studio.app._server.get_clients().values()
+    stands = client.camera.position
+    studio.page.evaluate("document.activeElement.blur()")  # as after a click into the 3D view
+    studio.page.keyboard.press("ArrowLeft", delay=300.0)
     back = studio.waits(lambda now: now.time != on).time
     assert on - back == pytest.approx(CONTROL_PERIOD)
+    studio.page.wait_for_timeout(500)
+    np.testing.assert_array_equal(client.camera.position, stands)  # viser turns it by arrows, too
     studio.page.keyboard.press("Space")
     studio.waits(lambda now: now.mode is Mode.PLAYING)
     studio.press("▶|")
