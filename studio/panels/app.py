@@ -21,7 +21,7 @@ from studio.panels.meshes import FINE
 from studio.panels.page import Page
 from studio.panels.scene import SceneView
 from studio.panels.tour import Guide
-from studio.panels.visitors import turn_strangers_away
+from studio.panels.visitors import receive
 
 FRAME = 1.0 / 30.0  # [s] between two pictures of the scene
 HEAD_START = 1.0  # [s] for the meshes, three times what they need when they lie in the cache
@@ -66,7 +66,7 @@ class App:
         self._loop, self._host = loop, host
         with _quiet():
             self._server = viser.ViserServer("127.0.0.1", 0, label=TITLE, verbose=False)
-        turn_strangers_away(self._server, host)
+        receive(self._server, host)
         try:
             self._front = Front(self._server.get_event_loop(), host, port, self._server.get_port())
         except StudioError:

@@ -89,14 +89,12 @@ class Control:
             for client, bar in self._bars.items():
                 bar.draw(client, now)
 
-    def _join(self, client: viser.ClientHandle) -> None:
+    async def _join(self, client: viser.ClientHandle) -> None:
+        # Awaited by viser, as a plain function is not: its first click comes after this.
         self._seat.join(client.client_id)
         bar = _Bar(client.gui, self._seat, self._now)
         with self._lock:
             self._bars[client.client_id] = bar
-        # It may have gone already: the two are told on different threads.
-        if client.client_id not in self._server.get_clients():
-            self._leave(client)
 
     def _leave(self, client: viser.ClientHandle) -> None:
         with self._lock:

@@ -1,14 +1,15 @@
-"""Only a page that the studio itself has served may steer it: other sites' are turned away.
+"""Only a page that the studio itself has served may steer it, and is heard from the first click.
 
 A browser lets any page that a person visits connect to this machine, and says in ``Origin`` which
 page it is. viser looks at neither that nor ``Host``, so each connection is looked at here, before
-anything that it sends is.
+anything that it sends is. Other sites' are turned away.
 """
 
 import contextlib
 from urllib.parse import urlsplit
 
 import viser
+from viser import _messages
 from viser.infra import WebsockClientConnection
 from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
@@ -17,10 +18,21 @@ from websockets.frames import CloseCode
 from studio.engine.live.access import is_loopback
 
 _WHY = "this page was not served by the studio: open the address that the studio prints"
+_NOWHERE = _messages.ViewerCameraMessage(
+    wxyz=(1.0, 0.0, 0.0, 0.0),
+    position=(0.0, 0.0, 0.0),
+    fov=1.0,
+    near=0.1,
+    far=100.0,
+    image_height=1,
+    image_width=1,
+    look_at=(0.0, 0.0, 1.0),
+    up_direction=(0.0, 0.0, 1.0),
+)
 
 
-def turn_strangers_away(server: viser.ViserServer, bound: str) -> None:
-    """Let pages of other sites in no more; whoever is connected already has to come again.
+def receive(server: viser.ViserServer, bound: str) -> None:
+    """Let in our own pages alone; whoever is connected already has to come again.
 
     ``bound`` is the address that the studio listens on.
     """
@@ -37,6 +49,11 @@ def turn_strangers_away(server: viser.ViserServer, bound: str) -> None:
             with contextlib.suppress(ConnectionClosed):
                 while True:  # what it has sent already is never handled
                     await connection.recv()
+            return
+        # viser drops all that a page asks for before it has told its camera, with its first
+        # picture: seconds after its buttons are there, without a graphics card. Until then it has
+        # one that looks nowhere.
+        await visitor._handle_incoming_message(visitor.client_id, _NOWHERE)
 
     sockets.on_client_connect(check)
     sockets.disconnect_all_clients()

@@ -49,6 +49,15 @@ class Studio:
     def open_step(self, name: str) -> None:
         self.press(name)
 
+    def command(self, label: str) -> None:
+        """Choose from the palette, which opens as soon as the page listens to keys."""
+        search = self.page.get_by_placeholder("Search commands")
+        while not search.is_visible():
+            self.page.keyboard.press("Control+k")
+            self.page.wait_for_timeout(100)
+        search.fill(label)
+        self.page.keyboard.press("Enter")
+
     def unfold(self, label: str) -> None:
         self.page.get_by_text(label, exact=True).click()
 

@@ -32,7 +32,7 @@ EVERYTHING = (
 
 def light_or_dark(studio: Studio, is_dark: bool) -> None:
     if is_dark:
-        studio.page.keyboard.press("n")
+        studio.command("Dark or light")
     scheme = "dark" if is_dark else "light"
     expect(studio.page.locator("html")).to_have_attribute("data-mantine-color-scheme", scheme)
 

@@ -1,5 +1,6 @@
 """One page controls: the others are refused in words, and a closed one lets go of the robot."""
 
+import asyncio
 from types import SimpleNamespace
 
 import pytest
@@ -69,7 +70,7 @@ class Hall:
 
     def open(self, client_id: int) -> Browser:
         browser = self.browsers[client_id] = Browser(client_id)
-        self.joined(browser)
+        asyncio.run(self.joined(browser))
         self.control.draw()
         return browser
 

@@ -2,13 +2,16 @@
 
 import contextlib
 import io
+import threading
 
+import msgspec
 import pytest
 import viser
+from viser import _messages
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from studio.panels.visitors import is_stranger, turn_strangers_away
+from studio.panels.visitors import is_stranger, receive
 
 
 @pytest.mark.parametrize(
@@ -60,7 +63,7 @@ def test_programs_are_let_in_and_doubled_headers_are_not() -> None:
 def server():
     with contextlib.redirect_stdout(io.StringIO()):
         made = viser.ViserServer("127.0.0.1", 0, verbose=False)
-        turn_strangers_away(made, "127.0.0.1")
+        receive(made, "127.0.0.1")
         made.gui.add_button("steers")
         yield made
         made.stop()
@@ -87,3 +90,13 @@ def test_a_strangers_connection_ends_and_it_is_shown_nothing(server) -> None:
     for origin in (None, f"http://127.0.0.1:{server.get_port()}"):
         with visit(server, origin) as page:
             assert page.recv(timeout=10.0) != b""
+
+
+def test_a_click_before_the_first_picture_is_heard(server) -> None:
+    heard = threading.Event()
+    button = server.gui.add_button("Record")
+    button.on_click(lambda _: heard.set())
+    click = _messages.GuiUpdateMessage(button._impl.uuid, {"value": True})
+    with visit(server, None) as page:
+        page.send(msgspec.msgpack.encode(click.as_serializable_dict()))
+        assert heard.wait(20.0)
