@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 import viser
 from viser import _messages
-from viser.infra import WebsockClientConnection
+from viser.infra import ClientId, WebsockClientConnection
 from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
@@ -53,7 +53,7 @@ def receive(server: viser.ViserServer, bound: str) -> None:
         # viser drops all that a page asks for before it has told its camera, with its first
         # picture: seconds after its buttons are there, without a graphics card. Until then it has
         # one that looks nowhere.
-        await visitor._handle_incoming_message(visitor.client_id, _NOWHERE)
+        await visitor._handle_incoming_message(ClientId(visitor.client_id), _NOWHERE)
 
     sockets.on_client_connect(check)
     sockets.disconnect_all_clients()
