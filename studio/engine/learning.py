@@ -240,8 +240,9 @@ class Learning:
                 self._findings.give_up(task.learner, report.words)
             return ""
         if isinstance(task, Explaining):
-            self._explained = task.lesson
-            self._equations = next((p for p in report.points if isinstance(p, dict)), {})
+            if is_over:  # its one point may be told of before, and what Baxter did was added then
+                self._explained = task.lesson
+                self._equations = next((p for p in report.points if isinstance(p, dict)), {})
             return ""
         if isinstance(task, BlockCurve):
             found_blocks = [point for point in report.points if isinstance(point, BlockPoint)]

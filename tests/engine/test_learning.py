@@ -15,7 +15,8 @@ from studio.engine.learning import PATIENCE, Learning
 from studio.engine.listed import Listed
 from studio.engine.snapshot import Mode
 from studio.engine.teaching import LearnerSettings, learn, reproduce
-from studio.engine.work import Work
+from studio.engine.work import Done, Progress, Report, Work
+from studio.engine.worker import Task
 from studio.engine.workplace import InTicks
 from tests.engine.export.materials import listed
 from tests.engine.long_work import PATIENCE as SECONDS
@@ -288,6 +289,37 @@ def test_equations_come_by_themselves_and_know_what_was_done(bench: Bench) -> No
     bench.do(commands.Train(LearnerSettings("rbf", 9)))
     bench.tick()
     assert dict(bench.status.equations) == {}
+
+
+class TellsTwice(InTicks):
+    """Tells of a last point before its end, as a process does on a busy machine."""
+
+    def __init__(self) -> None:
+        super().__init__(has_time=True)
+        self._end: Done | None = None
+
+    @property
+    def task(self) -> Task | None:
+        return super().task if self._end is None else self._end.task
+
+    def poll(self) -> Report | None:
+        if self._end is not None:
+            end, self._end = self._end, None
+            return end
+        report = super().poll()
+        if not isinstance(report, Done):
+            return report
+        self._end = report
+        return Progress(report.handle, report.task, report.points)
+
+
+def test_what_was_done_is_known_whatever_is_told_first() -> None:
+    bench = Bench(TellsTwice())
+    bench.tick()
+    bench.do(commands.Guess(RBF, falls=True))
+    bench.tick(6)
+    learning = bench.learning
+    assert dict(bench.status.equations) == equations_of(learning.lesson, learning.reproduction)
 
 
 def test_other_joints_forget_all_and_end_the_training(bench: Bench) -> None:
