@@ -15,6 +15,7 @@ FLAGS = (
     "--no-sandbox",
     "--use-angle=swiftshader",  # WebGL without a graphics card
     "--enable-unsafe-swiftshader",
+    "--disable-gpu-compositing",  # all but the 3D view is drawn in a third of the time without
     "--disable-background-networking",
 )
 PATIENCE = 90_000  # [ms] for anything: a machine without a graphics card draws a picture a second
