@@ -25,6 +25,7 @@ from studio.engine.teaching import LearnerSettings
 from tests.engine.puppet.dragging import SEQUENCE, from_shoulder
 
 MOST_LISTED = 6  # demonstrations; who never deletes any would be right to see memory grow
+MOST_NEURONS = 60
 STEP = 0.1  # [s] between two places of a dragged hand
 LIGHT = ("csv", "npz", "mcap", "model", "zip")  # kinds of export that need no film
 
@@ -59,6 +60,29 @@ class Restless:
         self._random, self._look = np.random.default_rng(seed), look
         self._files, self._kinds, self._patient = tuple(files), kinds, patient
 
+    def everything_once(self) -> Iterator[Orders]:
+        """Return one round in which nothing is left out; it ends.
+
+        Whatever a session loads when it is first needed is there afterwards.
+        """
+        yield from self._teach()
+        yield from self._drag()
+        for path in self._files:
+            yield (commands.Stop(), commands.UseFile(path, path.name)), 1.5
+            yield (commands.Watch(),), 2.0
+        for arms in ("both", "left"):
+            yield (commands.Stop(), commands.Configure(Choices(arms))), 0.5
+            yield (commands.UseDemonstrator(), commands.Record()), 1.0
+            yield from self._until_idle()
+        for name in ("newrb", "field", "rbf"):
+            yield (commands.Stop(), commands.Train(LearnerSettings(name, MOST_NEURONS))), 0.5
+            yield from self._until_idle()
+            yield (commands.KeepToCompare(), commands.PlayReproduction()), 3.0
+        for kind in self._kinds:
+            yield (commands.Stop(), commands.Export((kind,), anonymous=False)), 0.5
+            yield from self._until(lambda: not self._look().export.running, 20.0)
+        yield from self._reopen()
+
     def asks(self) -> Iterator[Orders]:
         """Return all that is asked for; it never ends."""
         deeds = (self._teach, self._drag, self._learn, self._compare, self._tidy, self._leave)
@@ -73,7 +97,7 @@ class Restless:
         """Be taught by the demonstrator: the only deed that is always seen to its end."""
         yield (commands.Stop(), commands.Configure(Choices()), commands.UseDemonstrator()), 0.1
         yield (self._one(commands.Record(), commands.RecordAgain()),), 1.0
-        yield from self._until_idle(30.0)
+        yield from self._until_idle()
 
     def _drag(self) -> Iterator[Orders]:
         """Take the puppet, sign, and drag its hand about."""
@@ -105,7 +129,7 @@ class Restless:
 
     def _learn(self) -> Iterator[Orders]:
         name = self._one("rbf", "rbf", "newrb", "field")
-        settings = LearnerSettings(name, int(self._random.integers(1, 60)))
+        settings = LearnerSettings(name, int(self._random.integers(1, MOST_NEURONS)))
         falls = bool(self._random.integers(2))
         yield (commands.Stop(), commands.ChooseLearner(settings)), self._seconds(1.0)
         asked = (commands.Train(settings), commands.Guess(settings, falls))
@@ -146,9 +170,7 @@ class Restless:
         """Export, and open what came of the last export."""
         kinds = self._random.permutation(self._kinds)[: self._random.integers(1, 3)]
         yield (commands.Export(tuple(kinds.tolist()), self._one(True, False)),), 2.0
-        archives = [path for path in self._look().export.files if path.suffix == ".zip"]
-        if archives:
-            yield (commands.OpenSession(archives[0]),), 2.0
+        yield from self._reopen()
 
     def _fumble(self) -> Iterator[Orders]:
         """Ask for what is not possible now, many times at once."""
@@ -179,9 +201,18 @@ class Restless:
         for entry in self._look().entries[: max(0, spare)]:
             yield (commands.Remove(entry.number),), 0.1
 
-    def _until_idle(self, seconds: float) -> Iterator[Orders]:
+    def _reopen(self) -> Iterator[Orders]:
+        """Open the session that was exported last."""
+        archives = [path for path in self._look().export.files if path.suffix == ".zip"]
+        if archives:
+            yield (commands.OpenSession(archives[0]),), 2.0
+
+    def _until_idle(self) -> Iterator[Orders]:
+        return self._until(lambda: self._look().mode is Mode.IDLE, 30.0)
+
+    def _until(self, reached: Callable[[], bool], seconds: float) -> Iterator[Orders]:
         for _ in range(round(seconds / STEP)):
-            if self._look().mode is Mode.IDLE:
+            if reached():
                 return
             yield (), STEP
 

@@ -6,8 +6,9 @@ A process of its own serves the studio as the command does: listener, live loop,
 page. A recording is played to it as a live stream, in a loop. `Restless` asks its session for
 anything, by a seed; beside it a headless Chromium clicks on any button, uploads whatever a file
 chooser asks for, and loads the page again every so often. The robot is drawn plainly and small, for
-want of a graphics card. Once a minute the process's memory is read; what it writes to standard
-error is its log. In the end every recording that was ever made is read.
+want of a graphics card. The commands begin with one of each kind, so that what is loaded when first
+needed is there before memory is weighed. Once a minute the process's memory is read; what it writes
+to standard error is its log. In the end every recording that was ever made is read.
 """
 
 import argparse
@@ -22,6 +23,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -78,8 +80,9 @@ def serve(folder: Path, seed: int) -> None:
 
 
 def ask(session: Session, seed: int, kept: Kept, ending: threading.Event) -> None:
-    """Ask for anything, and look after every recording."""
-    for orders, seconds in Restless(seed, lambda: session.snapshot, FILES).asks():
+    """Ask for everything once, then for anything, and look after every recording."""
+    restless = Restless(seed, lambda: session.snapshot, FILES)
+    for orders, seconds in chain(restless.everything_once(), restless.asks()):
         for order in orders:
             session.post(order)
         until = now() + seconds
