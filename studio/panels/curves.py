@@ -35,20 +35,28 @@ class Curves:
     playhead: int = -1  # the sample where it is; -1: nothing is played
 
     def of_joint(self, column: int, axis: tuple[float, float]) -> tuple[FloatArray, ...]:
-        """Return a plot's series: the stamps, each curve (142,), limits, and the playhead."""
+        """Return a plot's series: the stamps, each curve, limits, and the playhead.
+
+        Each is (142,), or (143,) with the sample at the playhead twice: its line stands upright.
+        """
+        at = np.arange(len(self.stamps))
+        upright = np.full(len(at), np.nan)
+        if self.playhead >= 0:
+            at = np.insert(at, self.playhead, self.playhead)
+            upright = np.insert(upright, self.playhead, axis[0])
+            upright[self.playhead + 1] = axis[1]
         curves = (
             *(self.low, self.high),
             *self.thin,
             *(self.mean, self.chosen, self.network, self.robot, self.second),
         )
-        flat = np.ones(len(self.stamps))
         lower, upper = self.limits[:, column]
         return (
-            self.stamps,
-            *(curve[:, column] for curve in curves),
-            lower * flat,
-            upper * flat,
-            self._upright(axis),
+            self.stamps[at],
+            *(curve[at, column] for curve in curves),
+            np.full(len(at), lower),
+            np.full(len(at), upper),
+            upright,
         )
 
     def axis_of(self, column: int, to_limits: bool) -> tuple[float, float]:
@@ -57,14 +65,6 @@ class Curves:
         values = np.concatenate([curve[:, column] for curve in shown])
         limits = self.limits[:, column]
         return axis_range(np.concatenate([values, limits]) if to_limits else values)
-
-    def _upright(self, axis: tuple[float, float]) -> FloatArray:
-        """Return the playhead as a series: from the bottom to the top within one sample."""
-        line = np.full(len(self.stamps), np.nan)
-        if self.playhead >= 0:
-            first = min(self.playhead, len(line) - 2)
-            line[first : first + 2] = axis
-        return line
 
 
 def curves_of(now: Snapshot) -> Curves | None:

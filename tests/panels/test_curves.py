@@ -36,7 +36,7 @@ def test_all_series_of_a_plot_are_equally_long_and_few(lesson) -> None:
         assert curves.joints == ("left_s0", "left_s1", "left_e0", "left_e1")
         for column in range(len(curves.joints)):
             series = curves.of_joint(column, AXIS)
-            assert {len(each) for each in series} == {SAMPLES}
+            assert {len(each) for each in series} == {SAMPLES + (curves.playhead >= 0)}
             assert len(series) == 11 + len(curves.thin)
     assert SAMPLES <= 300
 
@@ -97,10 +97,13 @@ def test_what_is_known_stays_whole_and_the_playhead_goes_through_it(lesson) -> N
     half = replace(played, time=played.lesson.taught.duration / 2)
     curves = curves_of(half)
     assert np.isfinite(curves.robot).all()
-    playhead = curves.of_joint(0, AXIS)[-1]
+    stamps, *others, playhead = curves.of_joint(0, AXIS)
     there = np.flatnonzero(np.isfinite(playhead))
     assert there[0] == pytest.approx(SAMPLES / 2, abs=1)
     np.testing.assert_array_equal(playhead[there], AXIS)
+    assert (np.diff(stamps) >= 0.0).all()
+    for curve in (stamps, *others):  # upright, and all the others as they were
+        assert curve[there[0]] == curve[there[1]] or np.isnan(curve[there]).all()
     last = curves_of(replace(played, time=99.0)).of_joint(0, AXIS)[-1]
     assert np.isfinite(last[-2:]).all()
 
