@@ -13,6 +13,7 @@ from studio.engine.seat import Seat
 from studio.panels import markup
 from studio.panels.hearing import hear, speaker
 from studio.panels.inputs import Post
+from studio.panels.shared import keep_shared
 
 ORDER = -10.0  # under the state and Stop, above all else
 CLOSED = "The page that controlled Baxter was closed or lost its line, so Baxter was let go."
@@ -48,6 +49,7 @@ class Control:
         self._told: dict[int, float] = {}  # [s] when a browser was last refused
         self._lock = threading.Lock()  # of the bars
         hear(server)
+        keep_shared(server, self._may)
         server.on_client_connect(self._join)
         server.on_client_disconnect(self._leave)
 
@@ -65,11 +67,7 @@ class Control:
         ``anybody`` may do it without control.
         """
         client = speaker()
-        refusal = "" if client is None else self._seat.act(client)
-        if client is None or anybody or not refusal:
-            return True
-        self._refuse(client, refusal)
-        return False
+        return client is None or self._may(client, anybody)
 
     def holder(self) -> viser.ClientHandle | None:
         """Return the browser in control."""
@@ -103,6 +101,13 @@ class Control:
         if self._seat.leave(client.client_id):
             with contextlib.suppress(StudioError):  # the engine has ended before its page
                 self._post(commands.LetGo(CLOSED))
+
+    def _may(self, client: int, anybody: bool = False) -> bool:
+        refusal = self._seat.act(client)
+        if anybody or not refusal:
+            return True
+        self._refuse(client, refusal)
+        return False
 
     def _refuse(self, client: int, words: str) -> None:
         now = self._now()

@@ -93,7 +93,7 @@ class Page:
             plots = EvidencePanel(gui, tab)
         with evidence.add_tab("Keys and view"):
             self._paces = (late, PaceLine(gui, always=True))
-            self._view = ViewPanel(gui, may_act)
+            self._view = ViewPanel(gui)
         with playing.add_tab("Timeline"):
             gui.add_html(_NARROW)
             timeline = TimelinePanel(gui, post)

@@ -4,7 +4,6 @@ Stop and Esc stop it, too; both are always in sight.
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import viser
 
@@ -13,7 +12,7 @@ from studio.engine.links.address import EXAMPLES
 from studio.engine.links.status import FIRST_RATIO, LEAST_RATIO, LinkStatus, Phase
 from studio.engine.snapshot import Snapshot
 from studio.panels import markup
-from studio.panels.inputs import Post, on_choice, show_value
+from studio.panels.inputs import Post, show_value
 from studio.panels.synced import Synced
 
 SAFE = "I made sure"
@@ -37,7 +36,6 @@ class RobotPanel:
     def __init__(self, gui: viser.GuiApi, post: Post, may_act: Callable[[], bool]) -> None:
         self._post, self._may_act = post, may_act
         self._address = gui.add_text("Address", "simulated://", hint=EXAMPLES)
-        self._typed = _Written(self._address, may_act)
         self._connect = gui.add_button("Connect", icon=viser.Icon.PLUG_CONNECTED, color="gray")
         self._connect.on_click(lambda _: post(commands.ConnectLink(self._address.value)))
         self._leave = gui.add_button("Let it alone", icon=viser.Icon.PLUG_X, color="gray")
@@ -46,7 +44,6 @@ class RobotPanel:
         self._enable.on_click(lambda _: post(commands.EnableLink()))
         gui.add_html(markup.note(_OF_WHAT))
         self._safe = gui.add_checkbox(SAFE, False)
-        self._ticked = _Written(self._safe, may_act)
         self._start = gui.add_button(
             "Go to the pose on the page, slowly",
             hint="From there it follows whenever the gate is armed or a motion plays",
@@ -77,7 +74,7 @@ class RobotPanel:
         for control, refusal in refusals:
             control.disabled = bool(refusal)
         if self._safe.disabled and self._safe.value:  # what was confirmed is over
-            self._ticked.write(False)
+            show_value(self._safe, False)
         self._speed.show(float(round(100 * link.ratio)))
         reasons = markup.reasons(refusal for _, refusal in refusals)
         self._state.content = described(link) + reasons
@@ -86,30 +83,7 @@ class RobotPanel:
         """Let it go, and ask for the confirmation anew the next time."""
         if self._may_act():
             self._post(commands.StartLink(self._safe.value))
-            self._ticked.write(False)
-
-
-class _Written:
-    """A control whose value stands on the page alone: who only watches does not change it.
-
-    Who controls acts by it, and has to find what it wrote.
-    """
-
-    def __init__(self, control: viser.GuiInputHandle[Any], may_change: Callable[[], bool]) -> None:
-        self._control, self._may_change = control, may_change
-        self._value = control.value
-        on_choice(control, self._changed)
-
-    def write(self, value: object) -> None:
-        """Show another value from now on."""
-        self._value = value
-        show_value(self._control, value)
-
-    def _changed(self) -> None:
-        if self._may_change():
-            self._value = self._control.value
-        else:
-            show_value(self._control, self._value)
+            show_value(self._safe, False)
 
 
 class RobotLine:

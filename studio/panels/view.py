@@ -1,7 +1,5 @@
 """How the page looks: dark or light, and its keys."""
 
-from collections.abc import Callable
-
 import viser
 
 from studio.panels.inputs import on_choice, show_value
@@ -15,15 +13,13 @@ class ViewPanel:
     ----------
     gui
         Of all browsers: a lecture hall sees one page.
-    may_change
-        Tells whether whoever clicks now may change it.
     """
 
-    def __init__(self, gui: viser.GuiApi, may_change: Callable[[], bool]) -> None:
-        self._gui, self._may_change = gui, may_change
+    def __init__(self, gui: viser.GuiApi) -> None:
+        self._gui = gui
         self.is_dark = False
         self._dark = gui.add_checkbox("Dark page", False, hint="For a dark room; key N")
-        on_choice(self._dark, self._choose)
+        on_choice(self._dark, lambda: self._set(self._dark.value))
         self._keys = gui.add_html("")
         self._configure()
 
@@ -34,12 +30,6 @@ class ViewPanel:
     def toggle(self) -> None:
         """Change between dark and light."""
         self._set(not self.is_dark)
-
-    def _choose(self) -> None:
-        if self._may_change():
-            self._set(self._dark.value)
-        else:
-            show_value(self._dark, self.is_dark)
 
     def _set(self, is_dark: bool) -> None:
         self.is_dark = is_dark

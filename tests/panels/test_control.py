@@ -60,6 +60,7 @@ class Hall:
         self.posted: list[commands.Command] = []
         self.time, self.speaking = 0.0, None
         monkeypatch.setattr(module, "hear", lambda _: None)
+        monkeypatch.setattr(module, "keep_shared", lambda *_: None)
         monkeypatch.setattr(module, "speaker", lambda: self.speaking)
         server = SimpleNamespace(
             on_client_connect=lambda act: setattr(self, "joined", act),

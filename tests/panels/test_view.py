@@ -30,20 +30,13 @@ def tick(panel: ViewPanel, value: bool) -> None:
 
 
 def test_it_is_toggled_by_key_and_by_box(server) -> None:
-    panel = ViewPanel(server.gui, lambda: True)
+    panel = ViewPanel(server.gui)
     assert not is_dark(server)
     panel.toggle()
     assert is_dark(server)
     assert panel._dark.value
     tick(panel, False)
     assert not is_dark(server)
-
-
-def test_who_only_watches_changes_nothing(server) -> None:
-    panel = ViewPanel(server.gui, lambda: False)
-    tick(panel, True)
-    assert not is_dark(server)
-    assert not panel._dark.value
 
 
 def contrast(one: tuple[int, int, int], other: tuple[int, int, int]) -> float:
