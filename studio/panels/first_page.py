@@ -24,6 +24,28 @@ document.documentElement.addEventListener("keydown", function (event) {
 });
 </script>"""
 
+# A control that was clicked on would keep the keys: Space would press its button again, and Escape
+# would not be heard from a box. Who goes through the page by Tab keeps them.
+_KEYS_STAY_FREE = """<script>
+(function () {
+  addEventListener("pointerup", function (event) {
+    setTimeout(function () {
+      var held = document.activeElement;
+      var chosen = event.target.closest && event.target.closest("[role=option]");
+      if (held && (chosen || held.matches("button, [type=checkbox], [role=slider]"))) held.blur();
+    });
+  }, true);
+  addEventListener("keydown", function (event) {
+    var at = event.target;
+    if (event.key !== "Escape" || !at.matches || !at.matches("input, textarea")) return;
+    if (at.closest("[role=dialog]")) return;
+    at.blur();
+    var again = new KeyboardEvent("keydown", {key: "Escape", code: "Escape"});
+    document.documentElement.dispatchEvent(again);
+  }, true);
+})();
+</script>"""
+
 NO_WEBGL = f"""<!doctype html>
 <html lang="en">
 <head>
@@ -63,7 +85,7 @@ numbers.</li>
 
 
 def checked(page: str) -> str:
-    """Return viser's page under our title, and first in it our own two scripts."""
+    """Return viser's page under our title, and first in it our own scripts."""
     head = page.find("<head>")
     if head < 0:
         return page
@@ -72,5 +94,6 @@ def checked(page: str) -> str:
         page[:begin]
         + _CHECK
         + _STEPS_ONLY
+        + _KEYS_STAY_FREE
         + page[begin:].replace("<title>Viser</title>", f"<title>{TITLE}</title>", 1)
     )

@@ -34,7 +34,6 @@ def test_play_pause_and_step_by_button_and_by_key(studio: Studio) -> None:
     assert 0.0 < on - paused < CONTROL_PERIOD * 1.01
     (client,) = studio.app._server.get_clients().values()
     stands = client.camera.position
-    studio.page.evaluate("document.activeElement.blur()")  # as after a click into the 3D view
     studio.page.keyboard.press("ArrowLeft", delay=300.0)
     back = studio.waits(lambda now: now.time != on).time
     assert on - back == pytest.approx(CONTROL_PERIOD)
@@ -46,3 +45,27 @@ def test_play_pause_and_step_by_button_and_by_key(studio: Studio) -> None:
     ended = studio.waits(lambda now: now.reproduction is not None)
     assert ended.time == pytest.approx(ended.duration)
     studio.shows("The block is down.")
+
+
+def test_keys_are_heard_whatever_was_clicked_on(studio: Studio) -> None:
+    page, press = studio.page, studio.page.keyboard.press
+    studio.tick("Loop")
+    studio.waits(lambda now: now.compare.timeline.loops)
+    press("Space")  # plays, and leaves the box as it is
+    playing = studio.waits(lambda now: now.mode is Mode.PLAYING)
+    page.get_by_role("textbox").locator("visible=true").first.click()
+    press("Escape")  # while somebody types
+    studio.waits(lambda now: now.mode is Mode.IDLE)
+    page.get_by_label("Speed", exact=True).first.click()
+    page.get_by_role("option", name="2x", exact=True).click()
+    studio.waits(lambda now: now.compare.timeline.speed == 2.0)
+    press("Space")
+    studio.waits(lambda now: now.mode is Mode.PLAYING)
+    studio.press("❚❚ Pause")
+    studio.waits(lambda now: now.mode is Mode.IDLE)
+    press("Space")  # plays, and does not press the button once more
+    studio.waits(lambda now: now.mode is Mode.PLAYING)
+    page.wait_for_timeout(500)
+    assert studio.now.mode is Mode.PLAYING
+    assert playing.compare.timeline.loops
+    assert studio.now.compare.timeline.loops
