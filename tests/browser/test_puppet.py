@@ -9,7 +9,6 @@ import pytest
 import viser
 from playwright.sync_api import Page, expect
 
-from studio.engine import commands
 from studio.engine.clock import LiveLoop
 from studio.engine.placement import Placement
 from studio.engine.skeleton import FloatArray, Joint
@@ -49,12 +48,13 @@ def puppet(page: Page, tmp_path: Path) -> Iterator[Puppet]:
     with studio_on(page, tmp_path / "recordings", 1.0, drawn="furniture") as studio:
         studio.press("Be the puppet")
         studio.shows("you, with the puppet")
+        studio.open_step("2 Teach")
         yield Puppet(studio.loop, studio.app, page)
 
 
-def test_the_hand_goes_where_it_is_dragged_and_keys_sign(puppet: Puppet) -> None:
+def test_the_hand_goes_where_it_is_dragged_keys_sign_and_it_is_taught(puppet: Puppet) -> None:
     page = puppet.page
-    puppet.loop.session.post(commands.Watch())
+    page.get_by_role("button", name="Record", exact=True).click()
     puppet.wait(lambda: puppet.loop.session.snapshot.gate is not None, "nobody is watched")
     for lit, key in enumerate("loc", start=1):
         page.keyboard.press(key)
@@ -76,3 +76,11 @@ def test_the_hand_goes_where_it_is_dragged_and_keys_sign(puppet: Puppet) -> None
     page.mouse.up()
     page.wait_for_timeout(1000)
     assert np.linalg.norm(puppet.pixel(puppet.hand()) - target) < 8.0  # and stays there
+
+    page.keyboard.press("l")
+    puppet.wait(lambda: not puppet.loop.session.snapshot.gate.armed, "it is armed for ever")
+    page.keyboard.press("Escape")
+    expect(page.get_by_text("Added demonstration-001.").first).to_be_visible()
+    (entry,) = puppet.loop.session.snapshot.entries
+    sent = entry.demonstration.sent
+    assert np.degrees(np.ptp(sent, axis=0)).max() > 2.0  # Baxter's arm went with the hand
