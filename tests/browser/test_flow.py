@@ -47,9 +47,16 @@ def nothing_is_cut_off(page: Page) -> None:
     assert wider == 0
 
 
+def gate_and_state_are_read_from_afar(page: Page) -> None:
+    for word in ("LASSO", "OPEN", "CLOSED", "IDLE", "Nobody is watched"):
+        shown = page.get_by_text(word).locator("visible=true").first
+        assert shown.evaluate("e => parseFloat(getComputedStyle(e).fontSize)") >= 24.0, word
+
+
 def walk(studio: Studio) -> None:
     """Go from nothing to a motion that was reproduced."""
     expect(studio.page.locator("canvas").first).to_be_visible()
+    gate_and_state_are_read_from_afar(studio.page)
     studio.open_step("4 Compare")
     expect(studio.button("Let Baxter do it alone")).to_be_disabled()
     studio.shows("Nothing is learned yet")
