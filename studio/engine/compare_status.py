@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from studio.engine.export.material import Take
 from studio.engine.field_picture import FieldPicture
 from studio.engine.measured import Measured
 from studio.engine.performance import Performance
@@ -34,6 +35,7 @@ class CompareStatus:
 
     timeline: TimelineStatus = TimelineStatus()
     playing: tuple[Alone, ...] = ()  # what is on the timeline, of one robot or two
+    replayed: Take | None = None  # the demonstration on the timeline, as it was put there
     beside: WorldState | None = None  # the second robot's
     kept: Lesson | None = None  # what is kept as B
     moved: bool = False  # the task's block is not where it was taught

@@ -141,7 +141,8 @@ class Comparing:
         """Return what there is to be drawn."""
         timeline, lesson = show.timeline if show else self.timeline, learning.lesson
         self._learn_of_trial(lesson, learning.reproduction)
-        solos = show.film.solos if show and isinstance(show.film, LessonFilm) else ()
+        film = show.film if show else None
+        solos = film.solos if isinstance(film, LessonFilm) else ()
         return CompareStatus(
             timeline=TimelineStatus(
                 title=show.film.title if show else "",
@@ -151,6 +152,7 @@ class Comparing:
                 loops=timeline.loops,
             ),
             playing=tuple(Alone(solo.lesson, solo.performance) for solo in solos),
+            replayed=film.take if isinstance(film, DemonstrationFilm) else None,
             beside=show.seen.beside if show else None,
             kept=self.kept,
             moved=bool(self._places),

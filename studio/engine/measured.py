@@ -10,6 +10,7 @@ from studio.engine.demonstration import SAMPLES, DemonstrationSet
 from studio.engine.export.material import Take
 from studio.engine.measures import (
     Deviation,
+    acceleration_alone,
     body_as_meant,
     deviation,
     deviation_between,
@@ -42,13 +43,11 @@ def measure_performance(
     name: str, letter: str, alone: Performance, taught: DemonstrationSet
 ) -> Measured:
     """Return what a whole performance of a robot comes to."""
-    count = round(alone.duration * CONTROL_RATE) + 1
-    joints = alone.measured_at(np.linspace(0.0, (count - 1) * CONTROL_PERIOD, count))
     return Measured(
         name,
         letter,
         deviation(alone, taught.mean, taught.joints, taught.hands),
-        hand_acceleration(joints, alone.arms),
+        acceleration_alone(alone),
         alone.block_down,
         in_guards_words(alone),
         alone.done,
@@ -76,10 +75,13 @@ def measure_demonstration(take: Take, taught: DemonstrationSet) -> Measured:
     )
 
 
-def followed(take: Take, count: int) -> FloatArray:
-    """Return all joints (count, 15) [rad] as measured, evenly over a demonstration."""
+def followed(take: Take, count: int, until: float | None = None) -> FloatArray:
+    """Return all joints (count, 15) [rad] as measured, evenly over a demonstration.
+
+    Or over what was recorded from its beginning ``until`` [s].
+    """
     shown, begun = take.demonstration, take.demonstration.first_sample * CONTROL_PERIOD
-    times = begun + np.linspace(0.0, shown.duration, count)
+    times = begun + np.linspace(0.0, shown.duration if until is None else until, count)
     return np.stack([recording_at(take.recording, time).joints for time in times.tolist()])
 
 
@@ -104,6 +106,12 @@ def envelope(paths: FloatArray) -> tuple[FloatArray, FloatArray]:
     middle: FloatArray = paths.mean(axis=0)
     passing = [cdist(middle, path).min(axis=1) for path in paths]
     return middle, np.max(passing, axis=0)
+
+
+def hands_followed(take: Take, until: float, count: int) -> dict[Side, FloatArray]:
+    """Return each taught hand's path (count, 3) [m] while the robot followed, as measured."""
+    joints = followed(take, count, until)
+    return {side: hand_path(joints, side) for side in sides_of(take.demonstration.arms)}
 
 
 def hands_alone(alone: Performance, until: float, count: int) -> dict[Side, FloatArray]:

@@ -9,7 +9,7 @@ from scipy.spatial.distance import cdist
 from studio.engine.arms import Arms, sides_of
 from studio.engine.hands import HandTrack
 from studio.engine.performance import Performance, joint_columns, whole_body
-from studio.engine.robot import CONTROL_RATE, load_robot
+from studio.engine.robot import CONTROL_PERIOD, CONTROL_RATE, load_robot
 from studio.engine.skeleton import FloatArray, Side
 
 
@@ -84,6 +84,18 @@ def hand_acceleration(joint_positions: FloatArray, arms: Arms) -> float:
     bends = [np.diff(hand_path(joint_positions, side), 2, axis=0) for side in sides_of(arms)]
     squares = np.sum(np.square(bends), axis=-1)
     return float(np.sqrt(squares.mean())) * CONTROL_RATE**2
+
+
+def acceleration_alone(performance: Performance) -> float:
+    """Return that of the hands [m/s²] over a performance's motion, tick by tick."""
+    count = motion_ticks(performance) + 1
+    stamps = np.linspace(0.0, (count - 1) * CONTROL_PERIOD, count)
+    return hand_acceleration(performance.measured_at(stamps), performance.arms)
+
+
+def motion_ticks(performance: Performance) -> int:
+    """Return how many ticks a performance's motion takes, the settling left out."""
+    return round(performance.duration * CONTROL_RATE)
 
 
 def hand_path(joint_positions: FloatArray, side: Side) -> FloatArray:

@@ -5,14 +5,16 @@ import viser
 from studio.engine.basis_curves import Basis, basis_of
 from studio.engine.skeleton import FloatArray
 from studio.engine.snapshot import Snapshot
-from studio.engine.svg import Chart, Line, legend
+from studio.engine.svg import BOTTOM, LEFT, RIGHT, TOP, Chart, Line, legend
 from studio.engine.teaching import Lesson
 from studio.panels import markup
 from studio.panels.error_chart import SIZE, chart_html
 from studio.panels.inputs import show_value
 from studio.panels.palette import ENVELOPE, NETWORK, css
+from studio.panels.playhead import Playhead, upright
 
 _NOT = "not drawn"
+_PLAYHEAD = "gaussians"  # the name of its line
 
 
 class BasisPart:
@@ -25,6 +27,7 @@ class BasisPart:
             "Gaussians", self._options, hint="What each neuron adds to a joint's curve"
         )
         self._chart = gui.add_html("", visible=False)
+        self._playhead = Playhead(gui, _PLAYHEAD)
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
@@ -35,6 +38,12 @@ class BasisPart:
             self._joint.options = options
             show_value(self._joint, _NOT)
         self._joint.disabled = lesson is None
+        self._draw_chart(lesson)
+        has_line = self._chart.visible and "</svg>" in self._chart.content
+        self._playhead.draw(playhead(now) if has_line else None)
+
+    def _draw_chart(self, lesson: Lesson | None) -> None:
+        """Draw it anew if it is another lesson's or another joint's."""
         wanted = (lesson, self._joint.value)
         if wanted == self._drawn:
             return
@@ -43,6 +52,16 @@ class BasisPart:
         self._chart.visible = lesson is not None and joint != _NOT
         if lesson is not None and joint in lesson.taught.joints:
             self._chart.content = drawn(lesson, lesson.taught.joints.index(joint))
+
+
+def playhead(now: Snapshot) -> float | None:
+    """Return where [px] in the chart the playhead is, at the same share of the motion as in plots.
+
+    None where nothing is on the timeline.
+    """
+    motion, (width, _) = now.compare.timeline.motion, SIZE
+    share = min(max(now.time / motion, 0.0), 1.0) if motion else None
+    return None if share is None else LEFT + share * (width - LEFT - RIGHT)
 
 
 def drawn(lesson: Lesson, column: int) -> str:
@@ -55,7 +74,9 @@ def drawn(lesson: Lesson, column: int) -> str:
     total = Line(basis.stamps, basis.total, css(NETWORK), width=2.4)
     chart = Chart(f"{joint} from its Gaussians", "sample", "[deg]", (*each, total), size=SIZE)
     keys = legend([(_named(basis), each[0]), ("their sum", total)])
-    return chart_html(chart.svg() + keys) + markup.note(
+    line = upright(_PLAYHEAD, TOP, SIZE[1] - BOTTOM)
+    with_line = f"{chart.svg().removesuffix('</svg>')}{line}</svg>"
+    return chart_html(with_line + keys) + markup.note(
         f"To the sum the network adds {joint}'s mean angle, {basis.bias:.1f}°, and has its curve."
         + _large(basis, basis.total)
     )

@@ -8,12 +8,14 @@ from studio.engine import commands
 from studio.engine.arms import in_words
 from studio.engine.demonstration import SHORTEST
 from studio.engine.entry import LONGEST_NAME, Entry
+from studio.engine.export.material import Take
 from studio.engine.robot import CONTROL_PERIOD
 from studio.engine.scene import USUAL, Scene
 from studio.panels import markup
 from studio.panels.flags import explained, verdict
 from studio.panels.inputs import Post
-from studio.panels.sparkline import legend, sparkline
+from studio.panels.playhead import Playhead
+from studio.panels.sparkline import PLAYHEAD, legend, playhead, sparkline
 from studio.panels.synced import Synced
 
 REPLAY, AGAIN, DELETE = "Replay", "Record again", "Delete"
@@ -31,6 +33,7 @@ class Card:
         self.folder = gui.add_folder(None, order=order)
         with self.folder:
             self._picture = gui.add_html("")
+            self._playhead = Playhead(gui, PLAYHEAD)
             self._slider = gui.add_multi_slider(
                 "Trim",
                 0.0,
@@ -59,8 +62,8 @@ class Card:
             )
             self._actions.on_click(lambda _: self._act())
 
-    def draw(self, entry: Entry | None) -> None:
-        """Show a demonstration, or nothing."""
+    def draw(self, entry: Entry | None, replayed: Take | None = None, time: float = 0.0) -> None:
+        """Show a demonstration, or nothing, and where in it what is replayed is at ``time`` [s]."""
         self.folder.visible = entry is not None
         if entry is None:
             self._entry = None
@@ -72,6 +75,7 @@ class Card:
             self._entry = entry
             self._picture.content = pictured(entry)
             self._flags.content = explained(entry)
+        self._playhead.draw(playhead(entry, replayed, time))
         self._show_trim(entry)
         self._include.show(entry.included)
         self._name.show(entry.name)

@@ -35,7 +35,8 @@ class Cards:
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
-        self._card.draw(now.entries[now.chosen] if now.entries else None)
+        chosen = now.entries[now.chosen] if now.entries else None
+        self._card.draw(chosen, now.compare.replayed, now.time)
         state = (now.entries, now.chosen, now.choices.scene)
         if state == self._drawn:
             return

@@ -6,7 +6,6 @@ import numpy as np
 import viser
 
 from studio.engine import commands
-from studio.engine.arms import short_names
 from studio.engine.compare_status import named
 from studio.engine.entry import Entry
 from studio.engine.field_picture import LEGS, FieldPicture
@@ -15,6 +14,7 @@ from studio.engine.snapshot import Snapshot
 from studio.panels import markup
 from studio.panels.chooser import DemonstrationChooser
 from studio.panels.inputs import Post
+from studio.panels.measured_table import measured
 from studio.panels.readiness import why_not_keep, why_not_play, why_not_put_back, why_not_replay
 from studio.panels.tryout import TryoutPart
 
@@ -23,6 +23,7 @@ class ComparePanel:
     """The fourth step."""
 
     def __init__(self, gui: viser.GuiApi, post: Post) -> None:
+        self._told: object = None  # what the outcome was drawn from
         self._play = gui.add_button(
             "Let Baxter do it alone",
             hint="Plays what was learned; the chosen demonstration goes along as a ghost",
@@ -53,11 +54,19 @@ class ComparePanel:
         self._play.disabled, self._replay.disabled = bool(play), bool(replay)
         self._notes.content = markup.reasons([play, replay])
         self._chooser.draw(now)
-        self._result.content = outcome(now)
+        self._draw_outcome(now)
         self._tryout.draw(now)
         self._block.draw(now)
         self._second.draw(now)
         self._field.draw(now)
+
+    def _draw_outcome(self, now: Snapshot) -> None:
+        """Draw what came of it anew if that has changed: with all its equations it is long."""
+        is_played, known = bool(now.compare.playing), now.learning.equations
+        state = (now.compare.table, is_played, now.reproduction, now.lesson, now.entries, known)
+        if state != self._told:
+            self._told = state
+            self._result.content = outcome(now)
 
 
 class BlockPart:
@@ -152,13 +161,14 @@ def outcome(now: Snapshot) -> str:
         return markup.note("The numbers come when Baxter is through.")
     if now.lesson is None or not any(is_robot(column) for column in table):
         return ""
+    is_known = now.reproduction is not None  # and exported: its equations read the exported tables
     robots = [column for column in table if is_robot(column)]
     verdicts = [verdict(robot, len(robots) > 1) for robot in robots]
     size = "font-size:max(22px,2.8vh);font-weight:700;line-height:1.25"
     return (
         markup.block("<br>".join(markup.text(words) for words in verdicts), size)
         + "".join(markup.note(guarded(robot, len(robots) > 1)) for robot in robots if robot.guarded)
-        + measured(table, now.lesson.taught.joints)
+        + measured(table, now.lesson.taught.joints, now.learning.equations if is_known else {})
         + "".join(markup.note(words) for words in [blocks_shown(now.entries)] if words)
         + markup.note("Errors of what was measured, against the mean demonstration as it was sent.")
     )
@@ -189,21 +199,3 @@ def blocks_shown(entries: Sequence[Entry]) -> str:
     ]
     what = included[0].task.what if included else ""
     return f"The {what} in the demonstrations: {', '.join(shown)}." if shown else ""
-
-
-def measured(table: Sequence[Measured], joints: Sequence[str]) -> str:
-    """Return the measures of all that is compared as one table of HTML."""
-    head = ("", *(column.letter or "shown" for column in table))
-    rows = [
-        (f"{joint} [deg]", *(f"{np.degrees(each.deviation.joint_rmse[i]):.2f}" for each in table))
-        for i, joint in enumerate(short_names(joints))
-    ]
-    rows += [
-        ("hand, mean [mm]", *(f"{1e3 * each.deviation.hand_mean:.1f}" for each in table)),
-        ("hand, largest [mm]", *(f"{1e3 * each.deviation.hand_max:.1f}" for each in table)),
-        ("hand, warped [mm]", *(f"{1e3 * each.deviation.hand_dtw:.1f}" for each in table)),
-        ("acceleration [m/s²]", *(f"{each.acceleration:.2f}" for each in table)),
-        (table[0].task.what, *(each.task.marked(each.done) for each in table)),
-    ]
-    names = "; ".join(f"{column.letter or 'shown'}: {column.name}" for column in table)
-    return markup.table(head, rows) + markup.note(names)

@@ -4,11 +4,12 @@ Both are plain HTML (``popovertarget``), so that no click has to go to the serve
 or a click beside the card closes it. A browser that does not know popovers shows the cards as text.
 """
 
+import math
 import re
 from collections.abc import Iterable, Mapping
 
 from studio.engine.export.equation import Equation
-from studio.panels.markup import text
+from studio.panels.markup import block, text
 
 _BUTTON = (
     "all:unset;cursor:pointer;text-decoration:underline dotted;text-underline-offset:.2em;"
@@ -25,6 +26,8 @@ _PROGRAM = (
     "background:var(--mantine-color-default-hover)"
 )
 
+_SAME = 1e-9  # relative: the same number, by whatever road
+
 
 class Cards:
     """The cards of one panel; ``place`` tells their names from another panel's."""
@@ -33,12 +36,17 @@ class Cards:
         self._equations, self._place = equations, place
         self._opened: dict[str, None] = {}  # keys, as an ordered set
 
-    def number(self, key: str, shown: str) -> str:
-        """Return a number as HTML: a button if there is an equation behind it, else its text."""
-        if key not in self._equations:
+    def number(self, key: str, shown: str, value: float) -> str:
+        """Return a number as HTML: a button if there is an equation behind it, else its text.
+
+        ``value`` is the number before it was rounded, in the equation's unit. Where the equation
+        has another one it is that of another network or run, and stays closed.
+        """
+        equation = self._equations.get(key)
+        if equation is None or not math.isclose(equation.value, value, rel_tol=_SAME):
             return text(shown)
         self._opened[key] = None
-        words = text(f"{self._equations[key].name}: open the equation")
+        words = text(f"{equation.name}: open the equation")
         return (
             f'<button type="button" popovertarget="{self._name(key)}" style="{_BUTTON}" '
             f'title="{words}">{text(shown)}</button>'
@@ -66,6 +74,12 @@ def card(equation: Equation) -> str:
         "Export the tables (CSV), and run this in their folder; it prints the number."
         f'<pre style="{_PROGRAM}">{text(equation.program())}</pre></details>'
     )
+
+
+def table_of(rows: str) -> str:
+    """Return rows of `row` as a table of a panel."""
+    style = "width:100%;border-collapse:collapse;font-size:.9em;font-variant-numeric:tabular-nums"
+    return block(f'<table style="{style}">{rows}</table>')
 
 
 def row(cells: Iterable[str], left: int = 1, kind: str = "td") -> str:

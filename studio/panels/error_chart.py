@@ -1,17 +1,19 @@
 """Error against the number of neurons, and below it whether the block falls: one scale for both."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from studio.engine.curves import MOST_SHOWN, ErrorPoint
+from studio.engine.export.equation import Equation
 from studio.engine.findings import Curve, Tried
 from studio.engine.learning_status import LearningStatus
 from studio.engine.paper import paper_table
 from studio.engine.skeleton import FloatArray
 from studio.engine.svg import LEFT, RIGHT, Chart, Line, legend
 from studio.panels import markup
+from studio.panels.equation_card import Cards
 from studio.panels.palette import BRAND, ENVELOPE, GHOST, NETWORK, css
 
 SIZE = (346, 186)  # [px], as wide as the panel; with slider and strip on a laptop at once
@@ -53,22 +55,28 @@ def error_chart(learning: LearningStatus) -> str:
     return chart_html(chart.svg() + strip(tried, neurons) + keys)
 
 
-def readout(learning: LearningStatus) -> str:
-    """Return the chosen network's errors in words, as far as they are known."""
+def readout(learning: LearningStatus, equations: Mapping[str, Equation] | None = None) -> str:
+    """Return the chosen network's errors in words, as far as they are known.
+
+    ``equations`` are that network's, where it was the last one trained: its numbers open them.
+    """
     neurons = learning.chosen.neurons
     named = f"<b>{neurons} neuron{'s' if neurons > 1 else ''}</b>"
     point = learning.curve.at(neurons)
-    words = _why_unknown(learning.curve) if point is None else errors_in_words(point)
-    return markup.block(f"{named}: {markup.text(words)}", "font-size:.9em")
+    cards = Cards(equations or {}, "curve")
+    words = _why_unknown(learning.curve) if point is None else errors_in_words(point, cards)
+    return markup.block(f"{named}: {words}", "font-size:.9em") + cards.html()
 
 
-def errors_in_words(point: ErrorPoint) -> str:
-    """Return a point's errors."""
-    parts = [f"MSE {point.mse:.3g} rad²"]
+def errors_in_words(point: ErrorPoint, cards: Cards) -> str:
+    """Return a point's errors as HTML."""
+    parts = [f"MSE {cards.number('mse', f'{point.mse:.3g}', point.mse)} rad²"]
     if point.floor_ratio is not None:
-        parts.append(f"{point.floor_ratio:.4g} × floor")
+        ratio = cards.number("ratio", f"{point.floor_ratio:.4g}", point.floor_ratio)
+        parts.append(f"{ratio} × floor")
     if point.held_out is not None:
-        parts.append(f"held out {point.held_out:.3g}")
+        held_out = cards.number("held-out", f"{point.held_out:.3g}", point.held_out)
+        parts.append(f"held out {held_out}")
     return ", ".join(parts)
 
 

@@ -1,14 +1,19 @@
 """Failing on purpose: say whether the block will fall with so few neurons, then see."""
 
+from collections.abc import Mapping
+
 import viser
 
 from studio.engine import commands
+from studio.engine.export.equation import Equation
 from studio.engine.findings import FEWEST_GUESSES, Tried
 from studio.engine.learning_status import LearningStatus
 from studio.engine.snapshot import Snapshot
 from studio.engine.task_words import BLOCK, TASK, TaskWords, task_words
 from studio.panels import markup
+from studio.panels.equation_card import Cards
 from studio.panels.inputs import Post
+from studio.panels.numbers import of_chosen
 from studio.panels.readiness import why_not_train
 
 _ANSWERS = {
@@ -41,7 +46,7 @@ class Guessing:
         if task is not self._task:
             self._task, self._answer.options = task, _ANSWERS[task]
             self._answer.label = "Will it fall?" if task is BLOCK else "Will it?"
-        self._question.content = question(now.learning, refusal, task)
+        self._question.content = question(now.learning, refusal, task, of_chosen(now))
         # viser cannot disable a group; why it is not there is said in its place.
         self._answer.visible = not refusal and now.learning.outcome is None
         self._score.content = score(now.learning)
@@ -57,14 +62,28 @@ class Guessing:
             self._post(commands.RevealBlocks(self._learning.chosen.name))
 
 
-def question(learning: LearningStatus, refusal: str, task: TaskWords = BLOCK) -> str:
-    """Return the question, or its answer where somebody has guessed."""
+def question(
+    learning: LearningStatus,
+    refusal: str,
+    task: TaskWords = BLOCK,
+    equations: Mapping[str, Equation] | None = None,
+) -> str:
+    """Return the question, or its answer where somebody has guessed.
+
+    ``equations`` are the chosen network's, where it was the last one trained: its numbers open
+    them.
+    """
     neurons = learning.chosen.neurons
     at = f"At <b>{neurons} neuron{'s' if neurons > 1 else ''}</b>"
     known = learning.outcome
     if known is not None:
-        return markup.block(f"{at} {_answer(known, learning)}") + markup.note(
-            "Move the slider to another number to guess again; 4 Compare shows it on the robot."
+        cards = Cards(equations or {}, "guess")
+        return (
+            markup.block(f"{at} {_answer(known, learning, cards)}")
+            + markup.note(
+                "Move the slider to another number to guess again; 4 Compare shows it on the robot."
+            )
+            + cards.html()
         )
     return markup.block(f"{at}: {task.question}") + (
         markup.reasons([refusal])
@@ -72,19 +91,20 @@ def question(learning: LearningStatus, refusal: str, task: TaskWords = BLOCK) ->
     )
 
 
-def _answer(known: Tried, learning: LearningStatus) -> str:
+def _answer(known: Tried, learning: LearningStatus, cards: Cards) -> str:
     point = known.point
     fell = f"<b>{'▬' if point.done else '▮'} {point.task.event[not point.done]}</b>"
     guess = ""
     if known.guess is not None:
         said = point.task.said[not known.guess]
         guess = f" You said: {said} {'✓' if known.right else '✗'}"
-    floor = learning.curve.floor
-    ratio = f", {point.mse / floor:.3g} × the floor" if floor else ""
-    return (
-        f"{fell}.{guess}<br>MSE {point.mse:.3g} rad²{ratio}; the hand is "
-        f"{1000.0 * point.hand_error:.0f} mm off on average."
-    )
+    floor, ratio, off = learning.curve.floor, "", 1000.0 * point.hand_error
+    if floor:
+        times = point.mse / floor
+        ratio = f", {cards.number('ratio', f'{times:.3g}', times)} × the floor"
+    mse = cards.number("mse", f"{point.mse:.3g}", point.mse)
+    hand = cards.number("hand mean", f"{off:.0f}", off)
+    return f"{fell}.{guess}<br>MSE {mse} rad²{ratio}; the hand is {hand} mm off on average."
 
 
 def score(learning: LearningStatus) -> str:

@@ -14,7 +14,7 @@ from studio.panels.error_chart import error_chart, readout
 from studio.panels.guessing import Guessing
 from studio.panels.inputs import Post
 from studio.panels.network_choice import NetworkChoice
-from studio.panels.numbers import learned
+from studio.panels.numbers import learned, of_chosen
 from studio.panels.readiness import fitting, why_not_train
 
 _NO_NUMBERS = markup.note("Numbers come with the first training.")
@@ -30,6 +30,8 @@ class LearnPanel:
         self._numbered: tuple[object, object] = (None, None)  # what the numbers were drawn from
         self._ready = gui.add_html("")
         self._choice = NetworkChoice(gui, post)
+        # Apart from the curve, whose points come one by one: an equation stays open meanwhile.
+        self._readout = gui.add_html("")
         self._curve = gui.add_html("")
         self._train = gui.add_button(
             "Train", hint="Learns from the listed demonstrations", icon=viser.Icon.SCHOOL
@@ -56,6 +58,7 @@ class LearnPanel:
         self._ready.content = markup.reasons([refusal]) or _material(now)
         self._choice.draw(learning.chosen)
         self._waiting.draw(learning)
+        self._readout.content = readout(learning, of_chosen(now))
         self._draw_curve(learning)
         why_not = why_not_suggest(now)
         self._suggest.disabled = bool(why_not)
@@ -70,7 +73,7 @@ class LearnPanel:
         state = (learning.curve, learning.chosen.neurons, learning.tried)
         if state != self._drawn:
             self._drawn = state
-            self._curve.content = readout(learning) + error_chart(learning)
+            self._curve.content = error_chart(learning)
 
     def _draw_numbers(self, now: Snapshot) -> None:
         """Draw what came of training anew if that has changed: it is long."""

@@ -5,9 +5,10 @@ from collections.abc import Iterator, Mapping
 from studio.engine.export.equation import Equation
 from studio.engine.lesson_words import worth_knowing
 from studio.engine.report import joint_names
+from studio.engine.snapshot import Snapshot
 from studio.engine.teaching import Lesson
 from studio.panels import markup
-from studio.panels.equation_card import Cards, row
+from studio.panels.equation_card import Cards, row, table_of
 from studio.panels.network_choice import LEARNER_LABELS
 
 # Of all joints together: an equation's key, what the number is, and how it is shown.
@@ -39,28 +40,32 @@ def learned(lesson: Lesson, equations: Mapping[str, Equation]) -> str:
     remarks = (*worth_knowing(lesson, equations), *filter(None, (lesson.remark, _meaning(lesson))))
     return (
         markup.block(title)
-        + _table("".join(_joints(lesson, cards)))
-        + (_table("".join(_together(equations, cards))) if equations else "")
+        + table_of("".join(_joints(lesson, cards)))
+        + (table_of("".join(_together(equations, cards))) if equations else "")
         + markup.note(hint)
         + "".join(map(markup.note, remarks))
         + cards.html()
     )
 
 
+def of_chosen(now: Snapshot) -> Mapping[str, Equation]:
+    """Return the equations of the network that the slider is at; none unless it was trained."""
+    lesson, learning = now.lesson, now.learning
+    is_trained = lesson is not None and lesson.settings == learning.chosen
+    return learning.equations if is_trained else {}
+
+
 def _joints(lesson: Lesson, cards: Cards) -> Iterator[str]:
     yield row(("joint", "MSE [rad²]", "floor [rad²]", "ratio"), kind="th")
     for i, (shown, joint) in enumerate(zip(joint_names(lesson), lesson.taught.joints, strict=True)):
-        floor, ratio = "none", "–"
+        mse, floor, ratio = float(lesson.mse[i]), "none", "–"
         if lesson.floor is not None:
-            floor = f"{lesson.floor[i]:.2e}"
-            ratio = f"{lesson.mse[i] / lesson.floor[i]:.4f}" if lesson.floor[i] > 0 else "–"
+            under = float(lesson.floor[i])
+            floor = cards.number(f"floor {joint}", f"{under:.2e}", under)
+            if under > 0.0:
+                ratio = cards.number(f"ratio {joint}", f"{mse / under:.4f}", mse / under)
         yield row(
-            (
-                markup.text(shown),
-                cards.number(f"mse {joint}", f"{lesson.mse[i]:.2e}"),
-                cards.number(f"floor {joint}", floor),
-                cards.number(f"ratio {joint}", ratio),
-            )
+            (markup.text(shown), cards.number(f"mse {joint}", f"{mse:.2e}", mse), floor, ratio)
         )
 
 
@@ -70,18 +75,14 @@ def _together(equations: Mapping[str, Equation], cards: Cards) -> Iterator[str]:
     yield row(
         (
             markup.text(f"largest error, {worst.removeprefix('largest ')} (ε*) [rad]"),
-            cards.number(worst, f"{equations[worst].value:.3f}"),
+            cards.number(worst, f"{equations[worst].value:.3f}", equations[worst].value),
         )
     )
     for key, words, form in _TOGETHER:
         if key in equations:
-            shown = format(equations[key].value, form).replace("inf", "> 1e15")
-            yield row((markup.text(words), cards.number(key, shown)))
-
-
-def _table(rows: str) -> str:
-    style = "width:100%;border-collapse:collapse;font-size:.9em;font-variant-numeric:tabular-nums"
-    return markup.block(f'<table style="{style}">{rows}</table>')
+            value = equations[key].value
+            shown = format(value, form).replace("inf", "> 1e15")
+            yield row((markup.text(words), cards.number(key, shown, value)))
 
 
 def _meaning(lesson: Lesson) -> str:

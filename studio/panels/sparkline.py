@@ -8,11 +8,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from studio.engine.entry import Entry
+from studio.engine.export.material import Take
 from studio.engine.skeleton import FloatArray
 from studio.panels import markup
 from studio.panels.palette import PROBLEM, css
+from studio.panels.playhead import upright
 
 WIDTH, HEIGHT = 236, 78
+PLAYHEAD = "demonstration"  # the name of its line
 TOP, BOTTOM = 14, 4  # for the flags' numbers, and a little air
 POINTS = 80  # of a line; a browser draws a hundred of them without noticing
 MARK = css(PROBLEM, 0.32)
@@ -41,8 +44,24 @@ def sparkline(entry: Entry) -> str:
     return (
         f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" width="100%" role="img" aria-label="{label}" '
         'style="display:block;background:var(--mantine-color-default-hover);border-radius:.2em">'
-        f"{_marks(entry)}{''.join(lines)}{_trimmed(entry)}</svg>"
+        f"{_marks(entry)}{''.join(lines)}{_trimmed(entry)}{upright(PLAYHEAD, 0, HEIGHT)}</svg>"
     )
+
+
+def playhead(entry: Entry, replayed: Take | None, time: float) -> float | None:
+    """Return where [px] in the picture ``time`` [s] of what is replayed is; None outside it.
+
+    By its place in the recording: a card that is trimmed or renamed meanwhile still shows it.
+    """
+    whole = entry.whole
+    if replayed is None or replayed.recording is not entry.recording:
+        return None
+    skipped = replayed.demonstration.first_sample - whole.first_sample
+    if not 0 <= skipped < len(whole.times):
+        return None
+    # What the robot does after the demonstration is not in the picture, which ends with it.
+    within = min(float(whole.times[skipped]) + time, whole.duration)
+    return WIDTH * within / whole.duration
 
 
 def legend(joints: Sequence[str]) -> str:

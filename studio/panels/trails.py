@@ -1,4 +1,4 @@
-"""The hands' paths: demonstrations thin with their envelope, what Baxter does alone bold."""
+"""The hands' paths: demonstrations thin with their envelope, what is played bold."""
 
 from collections.abc import Sequence
 
@@ -7,12 +7,12 @@ import viser
 from numpy.typing import NDArray
 
 from studio.engine.arms import sides_of
-from studio.engine.compare_status import Alone
 from studio.engine.demonstration import DemonstrationSet
-from studio.engine.measured import envelope, hand_paths, hands_alone
+from studio.engine.export.material import Take
+from studio.engine.measured import envelope, hand_paths, hands_alone, hands_followed
 from studio.engine.performance import Performance
 from studio.engine.robot import CONTROL_RATE
-from studio.engine.skeleton import FloatArray
+from studio.engine.skeleton import FloatArray, Side
 from studio.engine.snapshot import Snapshot
 from studio.panels.palette import ENVELOPE, GHOST, ROBOT, SECOND, Color
 
@@ -20,6 +20,8 @@ THIN, BOLD = 0.0025, 0.009  # [m]
 EVERY = 3  # ticks between two updates of a growing trail: 10 Hz
 _AROUND, _ALONG = 12, 2  # corners of the envelope's tube, and samples from one ring to the next
 _THINNEST = 0.004  # [m] of the tube, where all demonstrations agree
+
+Moved = Performance | Take  # what leaves a trail: a robot alone, or one that followed a person
 
 
 class Trails:
@@ -36,11 +38,16 @@ class Trails:
         self._root = roots[0]
 
     def draw(self, now: Snapshot) -> None:
-        """Show a snapshot: what was learned from and what came of it while that is played."""
+        """Show a snapshot: what was learned from and what came of it while that is played.
+
+        While a demonstration is replayed there is the way of the robot that followed the person.
+        """
         playing = now.compare.playing
         self._show_taught(playing[0].lesson.taught if playing else None)
+        alone = [each.performance for each in playing]
+        moved: Sequence[Moved | None] = alone or [now.compare.replayed]
         for number, trail in enumerate(self._bold):
-            trail.draw(playing[number] if number < len(playing) else None, now.time)
+            trail.draw(moved[number] if number < len(moved) else None, now.time)
 
     def _show_taught(self, taught: DemonstrationSet | None) -> None:
         if taught is self._taught:
@@ -84,22 +91,19 @@ class _Trail:
             thickness_units="world",
             visible=False,
         )
-        self._of: Performance | None = None
+        self._of: Moved | None = None
         self._paths: list[FloatArray] = []  # (T, 3) [m] of each hand, one point a tick
         self._drawn = -1  # points
 
-    def draw(self, alone: Alone | None, time: float) -> None:
+    def draw(self, moved: Moved | None, time: float) -> None:
         """Show it up to ``time`` [s], or nothing."""
-        performance = None if alone is None else alone.performance
-        if performance is None:
-            self._line.visible = False
+        if moved is None:
+            self._line.visible, self._drawn = False, -1
             return
-        count = 1 + EVERY * int(min(time, performance.duration) * CONTROL_RATE / EVERY)
-        if performance is not self._of and not self._knows(performance, count):
-            self._of, self._drawn = performance, -1
-            ticks = min(len(performance.ticks), round(performance.duration * CONTROL_RATE)) + 1
-            hands = hands_alone(performance, (ticks - 1) / CONTROL_RATE, ticks)
-            self._paths = list(hands.values())
+        count = 1 + EVERY * int(min(time, _duration(moved)) * CONTROL_RATE / EVERY)
+        if moved is not self._of and not self._knows(moved, count):
+            self._of, self._drawn = moved, -1
+            self._paths = list(_hands(moved).values())
         if count != self._drawn:
             self._drawn = count
             self._line.visible = count > 1
@@ -107,15 +111,30 @@ class _Trail:
                 drawn = [segments(path[:count]) for path in self._paths]
                 self._line.points = np.concatenate(drawn).astype(np.float32)
 
-    def _knows(self, performance: Performance, count: int) -> bool:
+    def _knows(self, moved: Moved, count: int) -> bool:
         """Tell whether it is the same run, simulated further, and far enough known already."""
         before = self._of
         return (
-            before is not None
-            and before.ticks[0] is performance.ticks[0]
+            isinstance(before, Performance)
+            and isinstance(moved, Performance)
+            and before.ticks[0] is moved.ticks[0]
             and len(before.ticks) > count
             and len(self._paths[0]) > count
         )
+
+
+def _duration(moved: Moved) -> float:
+    """Return how long [s] it moved, the settling left out."""
+    return moved.demonstration.duration if isinstance(moved, Take) else moved.duration
+
+
+def _hands(moved: Moved) -> dict[Side, FloatArray]:
+    """Return each hand's path (T, 3) [m], a point a tick, as far as it is known."""
+    ticks = round(_duration(moved) * CONTROL_RATE)
+    if isinstance(moved, Take):
+        return hands_followed(moved, ticks / CONTROL_RATE, ticks + 1)
+    ticks = min(len(moved.ticks), ticks)
+    return hands_alone(moved, ticks / CONTROL_RATE, ticks + 1)
 
 
 def segments(points: FloatArray) -> FloatArray:

@@ -83,6 +83,16 @@ def test_playing_ahead_of_the_playhead_comes_to_what_one_go_comes_to(taught: Ses
     assert [column.letter for column in ended.compare.table] == ["", "A"]
 
 
+def test_the_demonstration_on_the_timeline_is_told_and_no_other(taught: Session) -> None:
+    assert taught.snapshot.compare.replayed is None
+    now = do(taught, commands.PlayDemonstration(2))
+    replayed = now.compare.replayed
+    assert replayed.demonstration is now.entries[1].demonstration
+    do(taught, commands.Rename(2, "other"), commands.Choose(1))
+    assert taught.snapshot.compare.replayed is replayed  # as it was put there
+    assert do(taught, commands.PlayReproduction()).compare.replayed is None
+
+
 def test_what_is_over_is_not_simulated_again(taught: Session) -> None:
     first = played(taught).reproduction
     world = taught._activity.world

@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
+from studio.engine.films import DemonstrationFilm
 from studio.engine.measured import (
     envelope,
     followed,
     hand_paths,
     hands_alone,
+    hands_followed,
     measure_demonstration,
     measure_performance,
 )
@@ -104,3 +106,13 @@ def test_a_hands_trail_begins_where_the_robot_does_and_ends_at_the_playhead() ->
     np.testing.assert_allclose(trail["left"][0], hand_path(alone().start[None], "left")[0])
     at_two = alone().ticks[59].world.joint_positions
     np.testing.assert_allclose(trail["left"][-1], hand_path(at_two[None], "left")[0], atol=1e-9)
+
+
+def test_the_trail_of_a_replay_passes_where_the_replayed_robot_is() -> None:
+    film = DemonstrationFilm(take())
+    trail = hands_followed(take(), 2.0, 61)
+    assert list(trail) == ["left"]
+    for tick in (0, 17, 60):
+        joints = film.at(tick * CONTROL_PERIOD).world.joint_positions
+        expected = hand_path(joints[None], "left")[0]
+        np.testing.assert_allclose(trail["left"][tick], expected, atol=1e-9)

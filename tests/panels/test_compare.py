@@ -7,7 +7,9 @@ import pytest
 
 from studio.engine import commands
 from studio.engine.compare_status import named
-from studio.panels.compare import ComparePanel, measured, outcome, second_words
+from studio.engine.export.equations import equations_of
+from studio.panels.compare import ComparePanel, outcome, second_words
+from studio.panels.measured_table import measured
 from tests.panels.controls import Gui
 
 
@@ -50,7 +52,7 @@ def test_what_cannot_be_done_yet_says_why(lesson) -> None:
 def test_one_table_has_all_that_was_measured(lesson) -> None:
     now = lesson["played"]
     shown, robot = now.compare.table
-    table = measured(now.compare.table, now.lesson.taught.joints)
+    table = measured(now.compare.table, now.lesson.taught.joints, {})
     for i, joint in enumerate(("s0", "s1", "e0", "e1")):
         assert f"{joint} [deg]" in table
         assert f"{np.degrees(robot.deviation.joint_rmse[i]):.2f}" in table
@@ -61,6 +63,42 @@ def test_one_table_has_all_that_was_measured(lesson) -> None:
         assert column.name in table
     assert "✔ down" in table
     assert "✖" not in table
+
+
+def explained(now):
+    equations = equations_of(now.lesson, now.reproduction)
+    return replace(now, learning=replace(now.learning, equations=equations))
+
+
+def test_a_reproductions_numbers_open_their_equations_while_it_can_be_exported(lesson) -> None:
+    now = explained(lesson["played"])
+    page = outcome(now)
+    shown, robot = now.compare.table
+    opened = page.count("popovertarget=")
+    assert opened == page.count("<div popover ") == len(now.lesson.taught.joints) + 4
+    assert "popover" not in outcome(lesson["played"])  # whose equations are still to come
+    # Another run's numbers, as with a block that was moved, are not those of these equations.
+    error = replace(robot.deviation, hand_mean=2.0 * robot.deviation.hand_mean)
+    elsewhere = outcome(comparing(now, table=(shown, replace(robot, deviation=error))))
+    assert elsewhere.count("popovertarget=") == opened - 1
+    nothing_done = comparing(replace(now, reproduction=None), playing=())
+    assert "hand, mean" in outcome(nothing_done)
+    assert "popover" not in outcome(nothing_done)
+
+
+def test_an_outcome_is_drawn_when_it_changes_and_only_then(lesson) -> None:
+    compare, gui, _ = panel()
+    now = explained(lesson["played"])
+    (told,) = [text for text in gui.texts if text is compare._result]
+    for _ in range(3):
+        compare.draw(now)
+    assert told.told == ["content"]
+    assert "popovertarget=" in told.content
+    compare.draw(replace(now, time=1.0, compare=replace(now.compare, table=now.compare.table[:])))
+    assert told.told == ["content"]
+    compare.draw(lesson["played"])
+    assert told.told == ["content", "content"]
+    assert "popovertarget=" not in told.content
 
 
 def test_a_block_that_stands_is_told_by_sign_and_word(lesson) -> None:

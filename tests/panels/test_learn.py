@@ -17,8 +17,9 @@ import viser
 
 from studio.engine import commands
 from studio.engine.commands import Command
-from studio.engine.curves import COUNTS, BlockPoint, error_point
+from studio.engine.curves import COUNTS, BlockPoint, Trial, block_point_of, error_point
 from studio.engine.export import Job, tables
+from studio.engine.export.equation import Equation
 from studio.engine.export.equations import equations_of
 from studio.engine.export.material import Material
 from studio.engine.findings import Curve, Tried
@@ -29,8 +30,8 @@ from studio.panels.error_chart import across, error_chart, readout, strip
 from studio.panels.guessing import question, score
 from studio.panels.learn import LearnPanel, why_not_suggest
 from studio.panels.network_choice import LEARNER_LABELS, NetworkChoice, place_of
-from studio.panels.numbers import learned
-from tests.engine.export.materials import listed
+from studio.panels.numbers import learned, of_chosen
+from tests.engine.export.materials import done, listed
 from tests.engine.sweeps import samples
 
 SIX = LearnerSettings("rbf", 6)
@@ -185,6 +186,65 @@ def test_each_number_opens_an_equation_whose_program_prints_it(case, tmp_path: P
         assert found == pytest.approx(equation.value, rel=1e-9, abs=1e-9), name
         number = math.inf if shown.startswith("&gt;") else float(shown)
         assert number == pytest.approx(equation.value, rel=0.06, abs=5e-3), name
+
+
+def opened(page: str) -> dict[str, str]:
+    """Return the numbers that open something by the names of the equations."""
+    buttons = re.findall(r'popovertarget="([^"]+)"[^>]*>([^<]+)</button>', page)
+    names = dict(re.findall(r'<div popover id="([^"]+)"[^>]*><b>(.*?)</b>', page))
+    assert {target for target, _ in buttons} == set(names)
+    return {html.unescape(names[target]): shown for target, shown in buttons}
+
+
+@cache
+def tried_out() -> tuple[Trial, dict[str, Equation], LearningStatus]:
+    """Return a network after a guess, as a session has it."""
+    made = done("rbf", 6, 2)
+    equations = equations_of(made.lesson, made.reproduction)
+    point = block_point_of(made.lesson, made.reproduction)
+    errors = error_point(made.taught, SIX)
+    known = (Tried("rbf", point, True),)
+    learning = status(curve=Curve("rbf", (errors,)), tried=known, equations=equations)
+    return Trial(made.lesson, made.reproduction), equations, learning
+
+
+def test_the_guesss_answer_opens_the_equations_of_its_network() -> None:
+    _, equations, learning = tried_out()
+    found = opened(question(learning, "", equations=equations))
+    wanted = {"mse": ".3g", "ratio": ".3g", "hand mean": ".0f"}
+    assert found == {
+        equations[key].name: format(equations[key].value, form) for key, form in wanted.items()
+    }
+    assert "popover" not in question(learning, "")
+
+
+def test_the_readout_opens_the_equations_of_its_network() -> None:
+    _, equations, learning = tried_out()
+    found = opened(readout(learning, equations))
+    wanted = {"mse": ".3g", "ratio": ".4g", "held-out": ".3g"}
+    assert found == {
+        equations[key].name: format(equations[key].value, form) for key, form in wanted.items()
+    }
+    assert "popover" not in readout(learning)
+
+
+def test_another_networks_numbers_open_nothing(lesson) -> None:
+    trial, equations, learning = tried_out()
+    now = replace(lesson["trained"], learning=learning, lesson=trial.lesson)
+    assert of_chosen(now) is equations
+    assert of_chosen(replace(now, lesson=None)) == {}
+    elsewhere = replace(learning, chosen=LearnerSettings("rbf", 7))
+    assert of_chosen(replace(now, learning=elsewhere)) == {}
+    # Of as many neurons, but from other demonstrations: its numbers are others.
+    (point,) = learning.curve.points
+    (guessed,) = learning.tried
+    other = replace(
+        learning,
+        curve=Curve("rbf", (replace(point, mse=2.0 * point.mse, held_out=2.0 * point.held_out),)),
+        tried=(replace(guessed, point=replace(guessed.point, mse=0.5, hand_error=0.7)),),
+    )
+    assert opened(question(other, "", equations=equations)) == {}
+    assert list(opened(readout(other, equations))) == [equations["ratio"].name]
 
 
 def test_without_equations_there_are_numbers_all_the_same() -> None:

@@ -12,7 +12,7 @@ from studio.engine.demonstration import demonstrations_of
 from studio.engine.entry import Entry
 from studio.engine.export.material import Take
 from studio.engine.quality import Flag
-from studio.panels.sparkline import HEIGHT, MARK, TOP, WIDTH, legend, sparkline
+from studio.panels.sparkline import HEIGHT, MARK, TOP, WIDTH, legend, playhead, sparkline
 from tests.engine.cards_at_hand import DEFECTS, listed, take, takes
 
 CARD = Entry.of(1, take(1))
@@ -100,6 +100,36 @@ def test_what_is_trimmed_off_lies_behind_a_veil() -> None:
     kept = CARD.trimmed(1.0, 4.0)
     off = 1.0 - kept.demonstration.duration / CARD.whole.duration
     assert veiled(kept) == pytest.approx(WIDTH * off, abs=0.5)
+
+
+def test_the_playhead_is_upright_and_hidden_until_it_is_moved() -> None:
+    (line,) = drawn(CARD).findall("line")
+    assert line.get("visibility") == "hidden"
+    assert (line.get("x1"), line.get("x2")) == ("0", "0")
+    assert (float(line.get("y1")), float(line.get("y2"))) == (0.0, HEIGHT)
+
+
+def test_the_playhead_is_where_the_replay_is_in_the_picture() -> None:
+    whole = CARD.whole.duration
+    assert playhead(CARD, CARD.take, 0.0) == 0.0
+    assert playhead(CARD, CARD.take, whole / 2) == pytest.approx(WIDTH / 2)
+    assert playhead(CARD, CARD.take, whole + 1.0) == WIDTH  # the block falls meanwhile
+    kept = CARD.trimmed(1.0, 4.0)
+    begin, _ = kept.span
+    expected = WIDTH * (begin + 0.5) / whole
+    assert playhead(kept, kept.take, 0.5) == pytest.approx(expected)
+    # Trimmed or renamed while it is replayed, it is at the same place of the recording.
+    assert playhead(CARD.renamed("other"), kept.take, 0.5) == pytest.approx(expected)
+
+
+def test_another_demonstrations_replay_is_not_in_the_picture() -> None:
+    assert playhead(CARD, None, 1.0) is None
+    alike = replace(CARD.take, recording=take(2).recording)  # the same stretch of another one
+    assert playhead(CARD, alike, 1.0) is None
+    # Of the same recording, but another stretch of it.
+    later = replace(CARD.whole, first_sample=CARD.whole.last_sample + 30)
+    assert playhead(CARD, replace(CARD.take, demonstration=later), 1.0) is None
+    assert playhead(replace(CARD, whole=later), CARD.take, 1.0) is None
 
 
 def test_names_are_escaped_and_the_legend_shows_the_lines_looks() -> None:

@@ -1,5 +1,6 @@
 """2 Teach: what is shown is what is listed, and what a person does is asked of the session."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from studio.engine.snapshot import Mode
 from studio.panels.cards import headline, line
 from studio.panels.flags import explained, verdict
 from studio.panels.recordings import broken, described, label
+from studio.panels.sparkline import WIDTH
 from studio.panels.teach import BY_HAND, UNDO, TeachPanel, removed
 from tests.engine.cards_at_hand import DEFECTS, listed, takes
 from tests.panels.people import use
@@ -113,16 +115,51 @@ def test_nothing_is_sent_while_nothing_changes(panel, lesson) -> None:
     made = listed(*takes() * 5)
     now = showing(lesson, made)
     panel.draw(now)
+    assert sent_by(panel, [now] * 3) == []
+    paused = replace(replaying(now, made.entry(1)), time=2.0)
+    panel.draw(paused)
+    assert sent_by(panel, [paused] * 3) == []
+
+
+def sent_by(panel: TeachPanel, snapshots) -> list[object]:
+    """Return the messages that drawing snapshots sends."""
     server_side = panel._cards._gui._websock_interface
     sent = []
     original = server_side.queue_message
     server_side.queue_message = lambda message: sent.append(message) or original(message)
     try:
-        for _ in range(3):
+        for now in snapshots:
             panel.draw(now)
     finally:
         server_side.queue_message = original
-    assert [type(message).__name__ for message in sent] == []
+    return sent
+
+
+def replaying(now, entry):
+    """Return a snapshot with a demonstration on the timeline."""
+    return replace(now, compare=replace(now.compare, replayed=entry.take))
+
+
+def test_while_a_demonstration_is_replayed_its_cards_playhead_moves_alone(panel, lesson) -> None:
+    made = listed()
+    now = showing(lesson, made)
+    panel.draw(now)
+    style = panel._cards._card._playhead._style
+    assert style.content == ""
+    begun = replaying(now, made.entry(1))
+    snapshots = [replace(begun, time=drawing / 10.0) for drawing in range(30)]
+    sent = sent_by(panel, snapshots)
+    assert {message.uuid for message in sent} == {style._impl.uuid}
+    assert 14 <= len(sent) <= 15  # five a second
+    assert max(len(message.updates["content"]) for message in sent) < 120
+    whole = made.entry(1).whole.duration
+    (place,) = re.findall(r"translateX\((.*?)px\)", style.content)
+    assert float(place) == pytest.approx(WIDTH * 2.8 / whole, abs=0.06)
+    made.take(commands.Choose(2))  # whose card shows another demonstration
+    other = replace(begun, time=3.0, entries=tuple(made.entries), chosen=made.index)
+    for _ in range(2):
+        panel.draw(other)
+    assert style.content == ""
 
 
 def test_recording_automatically_and_by_hand(panel, lesson, asked) -> None:

@@ -3,10 +3,13 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from studio.engine.compare_status import Alone, CompareStatus
+from studio.engine.films import DemonstrationFilm
 from studio.engine.measures import hand_path
 from studio.engine.robot import CONTROL_RATE
+from studio.panels.palette import ROBOT
 from studio.panels.trails import BOLD, EVERY, THIN, Trails, segments, tube
 from tests.panels.nodes import Scene
 
@@ -19,8 +22,8 @@ def drawn(now, scene: Scene | None = None) -> Scene:
     return scene
 
 
-def test_nothing_is_drawn_while_nothing_learned_is_played(lesson) -> None:
-    for state in ("start", "recording", "trained", "replaying"):
+def test_nothing_is_drawn_while_nothing_is_played(lesson) -> None:
+    for state in ("start", "recording", "trained"):
         nodes = drawn(lesson[state]).nodes
         assert set(nodes) == {"/trails/alone", "/b/trails/alone"}
         assert not any(node.visible for node in nodes.values())
@@ -57,16 +60,55 @@ def test_the_bold_line_ends_where_the_hand_is(lesson) -> None:
     assert not line.visible
 
 
-def test_a_still_playhead_sends_nothing_and_another_one_ten_times_a_second(lesson) -> None:
+def test_a_replay_leaves_the_robots_trail_alone(lesson) -> None:
+    """Where the line ends the robot's hand is, by the replay itself."""
+    now, scene = lesson["replaying"], Scene()
+    trails, line = Trails(scene, ROOTS), scene.nodes["/trails/alone"]
+    film = DemonstrationFilm(now.compare.replayed)
+    for time in (4.0, 1.0, 2.5):  # scrubbed to and fro
+        trails.draw(replace(now, time=time))
+        hand = hand_path(film.at(time).world.joint_positions[None], "left")[0]
+        assert np.linalg.norm(line.points[-1, 1] - hand) < 0.03
+        assert len(line.points) == EVERY * int(time * CONTROL_RATE / EVERY)
+    assert line.visible
+    assert line.thickness == BOLD
+    assert line.colors == ROBOT
+    assert set(scene.nodes) == {"/trails/alone", "/b/trails/alone"}
+    assert not scene.nodes["/b/trails/alone"].visible
+
+
+def test_a_replays_trail_ends_with_the_demonstration_and_goes_with_the_replay(lesson) -> None:
+    now, scene = lesson["replaying"], Scene()
+    trails, line = Trails(scene, ROOTS), scene.nodes["/trails/alone"]
+    ends = []
+    for time in (now.compare.timeline.motion, now.duration):  # the block falls meanwhile
+        trails.draw(replace(now, time=time))
+        ends.append(line.points)
+    assert ends[0] is ends[1]
+    trails.draw(lesson["trained"])
+    assert not line.visible
+    trails.draw(replace(now, time=now.duration))
+    assert line.visible  # the same again, as far as before
+    trails.draw(lesson["played"])
+    assert line.points is not ends[1]
+    assert "/trails/shown_left" in scene.nodes
+
+
+@pytest.mark.parametrize("state", ["played", "replaying"])
+def test_a_still_playhead_sends_nothing_and_another_one_ten_times_a_second(lesson, state) -> None:
     scene = Scene()
     trails, line = Trails(scene, ROOTS), scene.nodes["/trails/alone"]
     sent = []
     for tick in range(60):
-        trails.draw(replace(lesson["played"], time=2.0 + tick / CONTROL_RATE))
-        sent.append(id(line.points))
-    assert len(set(sent)) <= 60 / EVERY + 1
+        trails.draw(replace(lesson[state], time=2.0 + tick / CONTROL_RATE))
+        sent.append(line.points)
+    assert len({id(points) for points in sent}) <= 60 / EVERY + 1
     added = scene.added
-    trails.draw(lesson["played"])
+    for _ in range(3):
+        trails.draw(lesson[state])
+    still = line.points
+    trails.draw(lesson[state])
+    assert line.points is still
     assert scene.added == added
 
 

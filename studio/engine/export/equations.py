@@ -13,10 +13,11 @@ def equations_of(lesson: Lesson, reproduction: Reproduction | None = None) -> di
     """Return the equations by key.
 
     Of each learned joint ``mse JOINT``, ``largest JOINT``, ``floor JOINT``, ``ratio JOINT``, and
-    ``rmse JOINT`` once Baxter did it alone; of all together ``ratio``, ``held-out``,
+    ``rmse JOINT`` once Baxter did it alone; of all together ``mse``, ``ratio``, ``held-out``,
     ``held-out ratio``, ``acceleration``, ``width``, ``rank``, ``condition``, ``hand mean``,
-    ``hand largest``, ``hand dtw``. Those that make no sense for a lesson are not there. It trains
-    the network anew for each demonstration that is left out, so ask once for each lesson.
+    ``hand largest``, ``hand dtw``, ``hand acceleration``. Those that make no sense for a lesson are
+    not there. It trains the network anew for each demonstration that is left out, so ask once for
+    each lesson.
     """
     found = learned_numbers(lesson)
     if reproduction is not None:

@@ -24,6 +24,7 @@ def learned_equations(lesson: Lesson) -> Iterator[tuple[str, Equation]]:
             yield f"floor {joint}", _floor(lesson, column, float(lesson.floor[column]))
             if lesson.floor[column] > 0.0:
                 yield f"ratio {joint}", _ratio(lesson, [joint], lesson.floor, column)
+    yield "mse", _mse_of_all(lesson)
     if lesson.floor is not None and lesson.floor.any():
         yield "ratio", _ratio(lesson, list(taught.joints), lesson.floor, slice(None))
     if len(taught.rows) > 1:
@@ -43,6 +44,21 @@ def _mse(lesson: Lesson, column: int) -> Equation:
         f"= {short(value)} rad²",
         source="Table I",
         lines=_taught(joint) + "print(np.mean((q - f) ** 2))\n",
+    )
+
+
+def _mse_of_all(lesson: Lesson) -> Equation:
+    value, count = float(lesson.mse.mean()), len(lesson.mse)
+    errors = " + ".join(short(float(each)) for each in lesson.mse)
+    return Equation(
+        name="mean square error, mean of the joints",
+        unit="rad²",
+        value=value,
+        formula="MSE = 1/D · Σ MSE of a joint   (over D joints; each 1/(K·T) · Σₖ Σᵢ "
+        f"(qₖ(i) − f(i))², {_OF_JOINT})",
+        filled=f"MSE = ({errors}) / {count} = {short(value)} rad²",
+        source="Table I",
+        lines=_taught(*lesson.taught.joints) + "print(np.mean((q - f) ** 2))\n",
     )
 
 

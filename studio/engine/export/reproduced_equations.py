@@ -7,6 +7,9 @@ import numpy as np
 from studio.engine.arms import sides_of
 from studio.engine.demonstration import SAMPLES
 from studio.engine.export.equation import Equation, listed, short
+from studio.engine.measures import acceleration_alone, motion_ticks
+from studio.engine.performance import Performance
+from studio.engine.robot import CONTROL_RATE
 from studio.engine.teaching import Lesson, Reproduction
 
 _MEANT = "p: where the hand was, m: where the mean demonstration would have it, at equal times"
@@ -66,6 +69,30 @@ def reproduced_equations(
             + read
             + "print(1000 * np.mean([warped(*hand) for hand in hands]))\n",
         ),
+    )
+    yield "hand acceleration", _acceleration(reproduction.performance)
+
+
+def _acceleration(performance: Performance) -> Equation:
+    value, count = acceleration_alone(performance), motion_ticks(performance) + 1
+    sides = sides_of(performance.arms)
+    points = len(sides) * (count - 2)
+    hands = ", ".join(
+        f'columns("reproduction.csv", {listed([f"{side} hand {axis} [m]" for axis in "xyz"])})'
+        for side in sides
+    )
+    return Equation(
+        name="acceleration of the hand, alone",
+        unit="m/s²",
+        value=value,
+        formula="a = √(1/N · Σₙ ‖p(n+1) − 2p(n) + p(n−1)‖²) · f²   (p: where the hand was at "
+        f"tick n of the motion, f = {CONTROL_RATE}/s)",
+        filled=f"a = √({short((value / CONTROL_RATE**2) ** 2 * points)} / {points}) · "
+        f"{CONTROL_RATE}² = {short(value)} m/s²",
+        source="second differences at the control rate",
+        lines=f"hands = np.array([{hands}])[:, :, :{count}]  # the motion, without settling\n"
+        "bends = np.diff(hands, 2)\n"
+        f"print(np.sqrt(np.mean(np.sum(bends**2, axis=1))) * {CONTROL_RATE}**2)\n",
     )
 
 

@@ -12,6 +12,7 @@ import pytest
 from studio.engine.export import Job, tables
 from studio.engine.export.equations import equations_of
 from studio.engine.export.material import Material
+from studio.engine.measured import measure_performance
 from studio.engine.teaching import Lesson, learn
 from tests.engine.export.materials import done
 
@@ -66,6 +67,9 @@ def test_numbers_are_those_that_the_studio_shows() -> None:
     assert found["width"].value == lesson.model.width_
     assert found["hand mean"].value == 1000.0 * error.hand_mean
     assert found["hand dtw"].value == 1000.0 * error.hand_dtw
+    assert found["mse"].value == lesson.mse.mean()
+    column = measure_performance("", "A", material.reproduction.performance, lesson.taught)
+    assert found["hand acceleration"].value == column.acceleration
 
 
 def test_values_stand_in_the_equations() -> None:
