@@ -87,8 +87,15 @@ def question(
         )
     return markup.block(f"{at}: {task.question}") + (
         markup.reasons([refusal])
-        or markup.note("Say it first; then Baxter tries it behind the scenes, in about a second.")
+        or markup.note(f"Say it first; then Baxter tries it behind the scenes, {_wait(learning)}.")
     )
+
+
+def _wait(learning: LearningStatus) -> str:
+    """Return how long a trial takes: 0.3 to 1.4 s of a processor, but 2.5 to 21 s for a field."""
+    if learning.chosen.name == "field":  # which is matched to the motion step by step
+        return "which takes a stable field some seconds, with hundreds of neurons many"
+    return "in about a second"
 
 
 def _answer(known: Tried, learning: LearningStatus, cards: Cards) -> str:
