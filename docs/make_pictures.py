@@ -4,10 +4,17 @@ Run ``python docs/make_pictures.py``. Needs Chromium and the test extra, and som
 samples are loaded, as at every start of the studio, and it is used as people use it, by its
 buttons. All goes into ``docs/pictures``. Time passes only between two pictures, so that they are
 the same however slowly a browser without a graphics card draws.
+
+With ``--all`` the measurements run too that draw all other pictures in ``docs``, and write their
+figures anew beside them: most of an hour on two processors, and the bench extra.
 """
 
+import argparse
 import io
+import os
 import shutil
+import subprocess
+import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
@@ -26,7 +33,13 @@ from studio.engine.teaching import LearnerSettings
 from studio.engine.work import Work
 from studio.panels.app import App
 
-PICTURES = Path(__file__).resolve().parent / "pictures"
+ROOT = Path(__file__).resolve().parents[1]
+PICTURES = ROOT / "docs" / "pictures"
+MEASURED = {  # what draws the other pictures of `docs`; FOLDER is one that is thrown away
+    "page.png": ("tests/bench/bench_page.py",),
+    "evaluate.svg, evaluate-zone.svg": ("tests/bench/bench_evaluate.py", "FOLDER"),
+    "lasa.svg": ("tests/bench/bench_lasa.py", "--jobs", "2"),
+}
 SIZE = {"width": 1366, "height": 768}  # [px], a laptop's
 FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 SETTLE = 5_000  # [ms] until the page has drawn another step
@@ -69,6 +82,26 @@ class Stepped:
 
 
 def main() -> None:
+    """Make the pictures of the page, and all others if that is asked for."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--all", action="store_true", help="those of the measurements, too")
+    everything = parser.parse_args().all
+    show_the_page()
+    if everything:
+        measure()
+
+
+def measure() -> None:
+    """Run what draws pictures of measurements, one after the other."""
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    for names, command in MEASURED.items():
+        print(f"{names}: {' '.join(command)}")
+        with tempfile.TemporaryDirectory() as folder:
+            given = [folder if each == "FOLDER" else each for each in command]
+            subprocess.run([sys.executable, *given], cwd=ROOT, env=environment, check=True)
+
+
+def show_the_page() -> None:
     """Teach, learn and play in a studio of its own, and take pictures on the way."""
     PICTURES.mkdir(exist_ok=True)
     with (

@@ -10,6 +10,8 @@ import pytest
 from studio.cli import main
 from studio.engine.live.access import Address, check_address
 from studio.engine.sources import read_skeletons
+from studio.panels import hotkeys, puppet
+from studio.panels.actions import ORDERS
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
@@ -101,6 +103,18 @@ def test_every_picture_is_light_and_found_from_a_page(picture: Path) -> None:
     assert any(f"pictures/{picture.name})" in page.read_text() for page in PAGES)
 
 
+def test_every_picture_is_made_by_one_command() -> None:
+    """Those of the page by the script itself, those of measurements by what it runs."""
+    script = (DOCS / "make_pictures.py").read_text()
+    drawn = [path for path in DOCS.iterdir() if path.suffix in (".svg", ".png", ".webp")]
+    assert len(drawn) >= 4
+    assert [path.name for path in drawn if path.name not in script] == []
+    for bench in re.findall(r'"(tests/bench/\w+\.py)"', script):
+        assert (ROOT / bench).exists()
+    assert "`python docs/make_pictures.py`" in README
+    assert "`--all`" in README
+
+
 def test_the_readme_begins_with_something_that_moves() -> None:
     first = README.index("![")
     (name,) = re.findall(r"!\[.*?\]\((.*?)\)", README)[:1]
@@ -116,3 +130,18 @@ def test_what_a_guide_has_in_bold_stands_on_the_page(guide: str) -> None:
     labels = {label for words in bold for label in words.split(", ")}
     assert len(labels) > 5
     assert [label for label in sorted(labels) if label not in panels] == []
+
+
+def test_every_key_that_is_named_does_something() -> None:
+    """As ``key T``, ``Key N`` or ``keys L, O, C``, wherever the line ends."""
+    bound = {each.key.shown for each in ORDERS if each.key is not None}
+    bound |= {key.shown for key in hotkeys._PAGE_KEYS.values()} | set(puppet.KEYS.values())
+    assert {"T", "N", "B", "Z"} & bound == {"T", "N", "B"}  # Z does nothing without Ctrl
+    named = {
+        (page.name, key)
+        for page in PAGES
+        for keys in re.findall(r"\b[Kk]eys?\s+((?:[A-Z]\b(?:,\s|\sand\s)?)+)", page.read_text())
+        for key in re.findall("[A-Z]", keys)
+    }
+    assert {("README.md", "N"), ("README.md", "O"), ("lecturers.md", "B")} <= named
+    assert [(page, key) for page, key in sorted(named) if key not in bound] == []

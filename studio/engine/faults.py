@@ -4,12 +4,14 @@ import logging
 import traceback
 
 _LOG = logging.getLogger(__name__)
+_HOLDS = "nothing recorded is lost, and Baxter holds still"
 
 
 class Faults:
-    """What went wrong that nobody foresaw."""
+    """What went wrong that nobody foresaw; ``outcome`` tells people what is left all the same."""
 
-    def __init__(self) -> None:
+    def __init__(self, outcome: str = _HOLDS) -> None:
+        self._outcome = outcome
         self._traced: set[tuple[str, int | None]] = set()  # file and line of each
 
     def in_words(self, fault: Exception) -> str:
@@ -21,6 +23,6 @@ class Faults:
             _LOG.error("internal fault", exc_info=fault)
         what = ascii(f"{type(fault).__name__}: {str(fault)[:200]}")[1:-1]
         return (
-            f"Internal fault: {what}; nothing recorded is lost, and Baxter holds still. The "
-            "terminal that the studio was started in shows where it happened."
+            f"Internal fault: {what}; {self._outcome}. The terminal that the studio was started in "
+            "shows where it happened."
         )

@@ -12,6 +12,7 @@ from studio.engine.errors import FileError
 
 LARGEST = 64 * 2**20  # [bytes] about an hour and a half of skeletons in the studio's own format
 _LONGEST_NAME = 60  # characters
+_CUT = "cut it into parts, or use the command: studio teach FILE"
 
 
 class Uploads:
@@ -21,8 +22,8 @@ class Uploads:
         self._folder = tempfile.TemporaryDirectory(prefix="teaching-studio-")
         self._numbers = itertools.count(1)
 
-    def keep(self, name: str, content: bytes) -> Path:
-        """Write a file's content and return where it is.
+    def keep(self, name: str, content: bytes, cure: str = _CUT) -> Path:
+        """Write a file's content and return where it is; ``cure`` helps where it is too large.
 
         Raises
         ------
@@ -32,7 +33,7 @@ class Uploads:
         shown = shown_name(name)
         if not content:
             raise FileError(f"{shown}: the file is empty")
-        _check_size(shown, len(content))
+        _check_size(shown, len(content), cure)
         path = Path(self._folder.name) / f"upload-{next(self._numbers)}"
         path.write_bytes(content)
         return path
@@ -52,11 +53,10 @@ class Uploads:
         self._folder.cleanup()
 
 
-def _check_size(shown: str, size: int) -> None:
+def _check_size(shown: str, size: int, cure: str = _CUT) -> None:
     if size > LARGEST:
         raise FileError(
-            f"{shown}: {size / 2**20:.0f} MB; up to {LARGEST // 2**20} MB are taken: "
-            "cut it into parts, or use the command: studio teach FILE"
+            f"{shown}: {size / 2**20:.0f} MB; up to {LARGEST // 2**20} MB are taken: {cure}"
         )
 
 

@@ -3,6 +3,8 @@
 import contextlib
 import io
 import threading
+from collections.abc import Callable
+from functools import partial
 
 import viser
 
@@ -14,6 +16,7 @@ from studio.engine.snapshot import Snapshot
 from studio.engine.uploads import Uploads
 from studio.panels.arcs import ArcsView
 from studio.panels.control import Control
+from studio.panels.delivery import Delivery
 from studio.panels.first_page import TITLE
 from studio.panels.front import Front
 from studio.panels.handles import Handles
@@ -81,6 +84,7 @@ class App:
         self.scene.wait(HEAD_START)
         self._handles = Handles(self._server.scene, post)
         self._arcs = ArcsView(self._server.scene)
+        self._delivery = Delivery(self._hand_over, self._attempt)
         self.page = Page(
             self._server.gui,
             post,
@@ -88,7 +92,7 @@ class App:
             self._guide,
             self._uploads,
             self._arcs,
-            self._deliver,
+            self._delivery.take,
         )
         self._closing = threading.Event()
         self._drawing = threading.Thread(target=self._draw_until_closed, name="drawing")
@@ -104,6 +108,7 @@ class App:
         """Take the page away."""
         self._closing.set()
         self._drawing.join()
+        self._delivery.close()
         self.scene.wait()
         self._front.close()
         self._stop_server()
@@ -129,12 +134,15 @@ class App:
         with contextlib.suppress(StudioError):
             self._loop.session.post(command)
 
-    def _deliver(self, name: str, content: bytes) -> None:
+    def _hand_over(self, name: str, content: bytes) -> None:
         """Send a file to the browser in control, or to all where nobody is."""
         if self._control.is_elsewhere:  # the program that asked for it fetches it
             return
         to = self._control.holder() or self._server
         to.send_file_download(name, content, save_immediately=True)
+
+    def _attempt(self, work: Callable[[], None]) -> None:
+        self.page.trouble.attempt(work)
 
     def _draw_until_closed(self) -> None:
         pictures = 0
@@ -146,16 +154,21 @@ class App:
                 return
             # Nothing but drawing in here: all broadcasts wait until it is through.
             with self._server.atomic():
-                self._draw(snapshot, panels=pictures % PANEL_EVERY == 0)
+                self._attempt(partial(self._draw, snapshot, pictures % PANEL_EVERY == 0))
             pictures += 1
 
     def _draw(self, snapshot: Snapshot, panels: bool) -> None:
-        self.scene.draw(snapshot)
-        self._handles.draw(snapshot)
-        self._arcs.draw(snapshot)
+        """Draw each part, whatever becomes of the others."""
+        for part in (self.scene, self._handles, self._arcs):
+            self._attempt(partial(part.draw, snapshot))
         if not panels:
             return
-        self.page.draw(snapshot)
+        self._attempt(partial(self.page.draw, snapshot, self._attempt))
+        self._attempt(self._draw_surroundings)
+        self.page.trouble.draw()
+
+    def _draw_surroundings(self) -> None:
+        """Show what is not the session's: how well it keeps up, who controls, what is missing."""
         self.page.tell_pace(self._loop.pace)
         self._control.draw()
         if self._control.is_elsewhere:

@@ -1,7 +1,5 @@
 """5 Export: what people take away, and a session that is opened again."""
 
-import io
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,12 +11,16 @@ from studio.engine.export import KINDS
 from studio.engine.snapshot import Snapshot
 from studio.engine.uploads import Uploads, shown_name
 from studio.panels import markup
+from studio.panels.actions import Order
 from studio.panels.inputs import Post
 from studio.panels.readiness import why_not_export
 from studio.panels.replay_page import REPLAY
 
-ARCHIVE = "studio-export.zip"  # of several files; a session's own archive never is in there
-Deliver = Callable[[str, bytes], None]  # a file's name and content, to whoever asked for it
+Deliver = Callable[[tuple[Path, ...]], None]  # send files to whoever asked for them, soon
+_TOO_LARGE = (
+    "lay it on the machine that runs the studio, and type its path as Other path, in the "
+    "Recordings folder of 2 Teach"
+)
 
 LABELS = {
     "replay": "Replay page",
@@ -38,6 +40,7 @@ _STYLE = f"""<style>
 :is({_BOXES}) {{ display: inline-block; width: 50%; padding-bottom: .1em !important; }}
 :is({_BOXES}) > div > div:first-child {{ width: calc(100% - 2em) !important; }}
 </style><div class="studio-exports"></div>"""
+_NOTHING_CHOSEN = "Choose at least one that is ready."
 _ALL = KINDS | {REPLAY.name: REPLAY}
 
 
@@ -47,6 +50,7 @@ class ExportPanel:
     def __init__(self, gui: viser.GuiApi, post: Post, uploads: Uploads, deliver: Deliver) -> None:
         self._post, self._uploads, self._deliver = post, uploads, deliver
         self._sent = 0  # the newest export that was delivered
+        self._now: Snapshot | None = None  # what was drawn last
         gui.add_html(markup.block("<b>Take it with you</b>: choose, and your browser keeps it."))
         gui.add_html(_STYLE)
         self._boxes = {
@@ -59,7 +63,7 @@ class ExportPanel:
             hint="Leaves out the names of files, sources, demonstrations and bodies",
         )
         self._export = gui.add_button("Export", icon=viser.Icon.DOWNLOAD)
-        self._export.on_click(lambda _: post(self._asked()))
+        self._export.on_click(lambda _: self._ask())
         self._progress = gui.add_progress_bar(0.0, visible=False)
         self._cancel = gui.add_button("Cancel", color="gray", icon=viser.Icon.X, visible=False)
         self._cancel.on_click(lambda _: post(commands.CancelExport()))
@@ -73,16 +77,15 @@ class ExportPanel:
         )
         self._open.on_upload(self._receive)
         self._opening = gui.add_html("")
+        self._problem = gui.add_html("", visible=False)  # stays until another one is opened
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot."""
-        status = now.export
+        self._now, status = now, now.export
         reasons = {name: why_not_export(now, name) for name in LABELS}
         for name, box in self._boxes.items():
             box.disabled = bool(reasons[name])
-        chosen = self._chosen(now)
-        refusal = "" if chosen else "Choose at least one that is ready."
-        running = bool(status.running)
+        running, refusal = bool(status.running), "" if self._chosen(now) else _NOTHING_CHOSEN
         self._export.disabled = running or bool(refusal)
         self._progress.visible = running
         self._cancel.visible = running or bool(status.opening)
@@ -91,47 +94,46 @@ class ExportPanel:
             self._progress.value = share  # type: ignore[misc] # as in `show_value`
         self._notes.content = _notes(now, [*_grouped(reasons), refusal])
         self._opening.content = markup.note(f"Opening {status.opening} …") if status.opening else ""
+        if status.opening:
+            self._problem.visible = False
 
     def send(self, now: Snapshot) -> None:
         """Deliver what has been written since, whichever step is open by now."""
         if now.export.number != self._sent:
             self._sent = now.export.number
-            for name, content in packages(now.export.files):
-                self._deliver(name, content)
+            self._deliver(now.export.files)
 
-    def _asked(self) -> commands.Export:
-        ready = tuple(name for name, box in self._boxes.items() if box.value and not box.disabled)
-        return commands.Export(ready, self._anonymous.value)
+    @property
+    def order(self) -> Order:
+        """The palette's entry that exports what is ticked, whichever step is open."""
+        return Order("Export what is ticked", self._asked, self._why_not)
 
-    def _chosen(self, now: Snapshot) -> list[str]:
-        return [
+    def _asked(self, now: Snapshot) -> commands.Export:
+        return commands.Export(self._chosen(now), self._anonymous.value)
+
+    def _why_not(self, now: Snapshot) -> str:
+        if now.export.running:
+            return "An export is being written: wait, or cancel it."
+        return "" if self._chosen(now) else f"5 Export: {_NOTHING_CHOSEN}"
+
+    def _ask(self) -> None:
+        if self._now is not None:
+            self._post(self._asked(self._now))
+
+    def _chosen(self, now: Snapshot) -> tuple[str, ...]:
+        return tuple(
             name for name, box in self._boxes.items() if box.value and not why_not_export(now, name)
-        ]
+        )
 
     def _receive(self, event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
         file = event.target.value
         try:
-            path = self._uploads.keep(file.name, file.content)
+            path = self._uploads.keep(file.name, file.content, _TOO_LARGE)
         except FileError as error:
-            self._opening.content = markup.problem(str(error))
+            self._problem.content, self._problem.visible = markup.problem(str(error)), True
         else:
+            self._problem.visible = False
             self._post(commands.OpenSession(path, shown_name(file.name)))
-
-
-def packages(files: tuple[Path, ...]) -> list[tuple[str, bytes]]:
-    """Return what is sent: a session's archive and a single file as they are, others as one."""
-    alone = [path for path in files if path.suffix == ".zip"]
-    others = [path for path in files if path not in alone]
-    sent = [(path.name, path.read_bytes()) for path in alone]
-    if len(others) == 1:
-        return [*sent, (others[0].name, others[0].read_bytes())]
-    if not others:
-        return sent
-    packed = io.BytesIO()
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in others:
-            archive.write(path, path.name)
-    return [*sent, (ARCHIVE, packed.getvalue())]
 
 
 def _grouped(reasons: dict[str, str]) -> list[str]:

@@ -1,6 +1,7 @@
 """What lies where on the page: what is always in sight, the steps, the evidence, the timeline."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Protocol
 
 import viser
@@ -25,6 +26,7 @@ from studio.panels.steps import Steps
 from studio.panels.teach import TeachPanel
 from studio.panels.timeline import TimelinePanel
 from studio.panels.tour import Guide, TourCaption, TourInvitation
+from studio.panels.trouble import Attempt, TroubleLine
 from studio.panels.view import ViewPanel
 
 STEPS_WIDTH, STATE_WIDTH, FLOATING_WIDTH = 372, 372, 420  # [px]; half of 1366 is the scene's
@@ -68,7 +70,7 @@ class Page:
     uploads, arcs
         What panels share with others.
     deliver
-        Sends a file to whoever asked for it.
+        Sends files to whoever asked for them, without waiting for it.
     """
 
     def __init__(
@@ -86,7 +88,7 @@ class Page:
         status, gate = StatusPanel(gui, post), GatePanel(gui, post)
         self._caption = TourCaption(gui, self._leave)
         self.messages, robot = MessagePanel(gui), RobotLine(gui)
-        late = PaceLine(gui, always=False)
+        self.trouble, late = TroubleLine(gui), PaceLine(gui, always=False)
         self._add_steps(gui, post, uploads, arcs, deliver)
         evidence, playing = gui.add_panel(), gui.add_panel()
         with evidence.add_tab("Evidence") as tab:
@@ -107,20 +109,26 @@ class Page:
         playing.float(x=12, y=-12, width=FLOATING_WIDTH)
         self._caption.panel.float(x=-12, y=12, width=CAPTION_WIDTH)
 
-    def draw(self, now: Snapshot) -> None:
-        """Show a snapshot; of the steps only the open one, and the last one for what it sends."""
+    def draw(self, now: Snapshot, attempt: Attempt = lambda work: work()) -> None:
+        """Show a snapshot; of the steps only the open one, and the last one for what it sends.
+
+        Each panel is an ``attempt`` of its own.
+        """
+        attempt(partial(self._draw_tour, now))
+        for panel in self._always:
+            attempt(partial(panel.draw, now))
+        for name, step in self._panels.items():
+            if self.steps.is_open(name):
+                attempt(partial(step.draw, now))
+        attempt(partial(self._export.send, now))
+
+    def _draw_tour(self, now: Snapshot) -> None:
         caption = self._guide.look(now)
         if caption is not None and caption.number != self._stage:
             self.steps.open(_STEP_OF[caption.step])
         self._stage = 0 if caption is None else caption.number
         self._caption.draw(caption, self._guide.farewell)
         self._invitation.draw(caption is not None)
-        for panel in self._always:
-            panel.draw(now)
-        for name, step in self._panels.items():
-            if self.steps.is_open(name):
-                step.draw(now)
-        self._export.send(now)
 
     def tell_pace(self, pace: Pace) -> None:
         """Show whether the studio keeps up."""
@@ -150,7 +158,7 @@ class Page:
     def _add_hotkeys(self, gui: viser.GuiApi, post: Post) -> Hotkeys:
         opening = {name: self._opening(name) for name in self._panels}
         page = {"Take the tour": self._begin, **opening, "Dark or light": self._change_theme}
-        hotkeys = Hotkeys(gui, post, page)
+        hotkeys = Hotkeys(gui, post, page, (self._export.order,))
         self._view.explain(keys_as_html(hotkeys.actions))
         return hotkeys
 

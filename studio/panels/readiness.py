@@ -12,6 +12,7 @@ from studio.engine.task_words import task_words
 
 CALIBRATING = "Baxter waits while you calibrate: press Stop first."
 DRIVEN = "A program drives Baxter: press Stop first."
+_NONE_LISTED = "No demonstration is listed: record one in 2 Teach."
 FOLLOWING = (Mode.WATCHING, Mode.ARMED, Mode.RECORDING)
 
 
@@ -60,6 +61,33 @@ def why_not_teach(now: Snapshot) -> str:
     return "Somebody teaches already: press Stop first." if _follows(now) else ""
 
 
+def why_not_take_stream(now: Snapshot) -> str:
+    """Return why no live stream can be the source."""
+    return "" if now.live is not None else "This studio was started without taking live streams."
+
+
+def why_not_give_up_reading(now: Snapshot) -> str:
+    """Return why there is no reading to be given up."""
+    return "" if now.who.reading is not None else "No file is being read."
+
+
+def why_not_begin_take(now: Snapshot) -> str:
+    """Return why no take can be begun by hand."""
+    if now.mode is Mode.RECORDING:
+        return "It is being recorded already: end that take first."
+    return "" if _follows(now) else why_not_teach(now) or "Press Watch first: then begin a take."
+
+
+def why_not_end_take(now: Snapshot) -> str:
+    """Return why there is no take to be ended."""
+    return "" if now.mode is Mode.RECORDING else "Nothing is being recorded: begin a take first."
+
+
+def why_not_choose(now: Snapshot) -> str:
+    """Return why nothing can be done with the chosen demonstration."""
+    return "" if now.entries else _NONE_LISTED
+
+
 def why_not_train(now: Snapshot) -> str:
     """Return why nothing can be learned."""
     if now.learning.underway is not None:
@@ -69,6 +97,12 @@ def why_not_train(now: Snapshot) -> str:
     if not fitting(now):
         return f"No demonstration by {_wanted(now)}: record one in 2 Teach."
     return ""
+
+
+def why_not_cancel(now: Snapshot) -> str:
+    """Return why there is nothing to give up of what is computed."""
+    goes_on = now.learning.underway is not None or now.learning.is_drawing
+    return "" if goes_on else "Nothing is being computed."
 
 
 def why_not_play(now: Snapshot) -> str:
@@ -81,7 +115,7 @@ def why_not_play(now: Snapshot) -> str:
 def why_not_replay(now: Snapshot) -> str:
     """Return why no demonstration can be replayed."""
     if not now.entries:
-        return "No demonstration is listed: record one in 2 Teach."
+        return _NONE_LISTED
     return _why_not_while_taught(now)
 
 
@@ -96,6 +130,11 @@ def why_not_keep(now: Snapshot) -> str:
         return "Two robots: train first, in 3 Learn, then keep it as B."
     is_kept = now.lesson is now.compare.kept
     return "Learn something else in 3 Learn: that is A." if is_kept else ""
+
+
+def why_not_send_away(now: Snapshot) -> str:
+    """Return why there is no second robot to be sent away."""
+    return "" if now.compare.kept is not None else "Nothing is kept as B."
 
 
 def why_not_record_again(now: Snapshot) -> str:
@@ -123,10 +162,16 @@ def why_not_step(now: Snapshot) -> str:
 def why_not_export(now: Snapshot, kind: str) -> str:
     """Return why a kind of file cannot be written."""
     if not now.entries:
-        return "No demonstration is listed: record one in 2 Teach."
+        return _NONE_LISTED
     if kind in WITHOUT_LESSON or now.lesson is not None:
         return ""
     return "Nothing is learned yet: press Train in 3 Learn."
+
+
+def why_not_cancel_export(now: Snapshot) -> str:
+    """Return why there is no export to be given up, nor a session that is being opened."""
+    goes_on = now.export.running or now.export.opening
+    return "" if goes_on else "Nothing is being exported or opened."
 
 
 def next_step(now: Snapshot) -> str:

@@ -12,7 +12,7 @@ from playwright.sync_api import Page, expect
 from studio.engine import commands
 from studio.engine.export import KINDS
 from studio.engine.mcap_file import read_recording
-from studio.panels.exports import ARCHIVE
+from studio.panels.delivery import ARCHIVE
 from studio.rbf import load_model
 from tests.browser.conftest import PATIENCE
 from tests.browser.opened import Studio, studio_on

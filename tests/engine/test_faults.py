@@ -31,3 +31,9 @@ def test_a_fault_is_said_each_time_and_traced_once(caplog) -> None:
 @pytest.mark.parametrize("error", [ValueError(), ValueError("x" * 10_000)])
 def test_words_are_never_long(error: Exception) -> None:
     assert len(Faults().in_words(error)) < 500
+
+
+def test_what_is_left_is_told_as_it_is() -> None:
+    words = Faults("the robot goes on").in_words(here(KeyError("x")))
+    assert "; the robot goes on. The terminal" in words
+    assert "holds still" not in words

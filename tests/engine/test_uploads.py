@@ -32,6 +32,10 @@ def test_large_and_empty_files_are_refused_by_name(
     monkeypatch.setattr(uploads, "LARGEST", 10)
     with pytest.raises(FileError, match=r"big\.json: .* MB are taken"):
         kept.keep("big.json", bytes(11))
+    with pytest.raises(FileError, match=r"MB are taken: .*studio teach FILE"):
+        kept.keep("big.json", bytes(11))
+    with pytest.raises(FileError, match=r"MB are taken: carry it over$"):
+        kept.keep("big.zip", bytes(11), "carry it over")
     with pytest.raises(FileError, match=r"nothing\.json: the file is empty"):
         kept.keep("nothing.json", b"")
     assert kept.keep("fits.json", bytes(10)).stat().st_size == 10

@@ -1,7 +1,5 @@
 """What is exported arrives, whole; what cannot be is not asked for."""
 
-import io
-import zipfile
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -9,10 +7,11 @@ from types import SimpleNamespace
 import pytest
 import viser
 
-from studio.engine import commands
+from studio.engine import commands, uploads
 from studio.engine.export_status import ExportStatus
 from studio.engine.uploads import Uploads
-from studio.panels.exports import ARCHIVE, ExportPanel, packages
+from studio.panels import recordings
+from studio.panels.exports import _TOO_LARGE, ExportPanel
 
 
 @pytest.fixture
@@ -27,9 +26,9 @@ class Shown:
 
     def __init__(self, gui: viser.GuiApi) -> None:
         self.posted: list[commands.Command] = []
-        self.sent: dict[str, bytes] = {}
+        self.sent: list[tuple[Path, ...]] = []
         self.uploads = Uploads()
-        self.panel = ExportPanel(gui, self.posted.append, self.uploads, self.sent.__setitem__)
+        self.panel = ExportPanel(gui, self.posted.append, self.uploads, self.sent.append)
 
     def press(self, handle: viser.GuiButtonHandle) -> None:
         for act in handle._impl.update_cb:
@@ -90,24 +89,8 @@ def test_files_are_sent_once(shown: Shown, lesson, tmp_path: Path) -> None:
     path.write_text("{}")
     done = replace(lesson["trained"], export=ExportStatus(number=1, files=(path,)))
     shown.panel.send(done)
-    assert shown.sent == {"model.json": b"{}"}
-    shown.sent.clear()
     shown.panel.send(done)
-    assert shown.sent == {}
-
-
-def test_a_session_stays_a_file_of_its_own(tmp_path: Path) -> None:
-    for name in ("session.zip", "a.csv", "b.csv"):
-        (tmp_path / name).write_bytes(name.encode())
-    sent = dict(packages(tuple(sorted(tmp_path.iterdir()))))
-    assert sent.keys() == {"session.zip", ARCHIVE}
-    assert sent["session.zip"] == b"session.zip"
-    with zipfile.ZipFile(io.BytesIO(sent[ARCHIVE])) as archive:
-        assert {name: archive.read(name) for name in archive.namelist()} == {
-            "a.csv": b"a.csv",
-            "b.csv": b"b.csv",
-        }
-    assert packages(()) == []
+    assert shown.sent == [(path,)]
 
 
 def test_an_archive_is_opened_under_its_own_name(shown: Shown) -> None:
@@ -116,6 +99,56 @@ def test_an_archive_is_opened_under_its_own_name(shown: Shown) -> None:
     (asked,) = shown.posted
     assert isinstance(asked, commands.OpenSession)
     assert (asked.name, asked.path.read_bytes()) == ("lab.zip", b"PK\x03\x04")
-    empty = SimpleNamespace(name="empty.zip", content=b"")
-    shown.panel._receive(SimpleNamespace(target=SimpleNamespace(value=empty)))
-    assert "empty.zip: the file is empty" in shown.panel._opening.content
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (b"", "mine.zip: the file is empty"),
+        (b"too much", r"mine.zip: 0 MB; up to 0 MB are taken: lay it on the machine that runs"),
+    ],
+)
+def test_why_an_upload_is_refused_stays_until_another_is_opened(
+    shown: Shown, lesson, monkeypatch: pytest.MonkeyPatch, content: bytes, why: str
+) -> None:
+    monkeypatch.setattr(uploads, "LARGEST", 4)
+    problem = shown.panel._problem
+    refused = SimpleNamespace(name="../mine.zip", content=content)
+    shown.panel._receive(SimpleNamespace(target=SimpleNamespace(value=refused)))
+    for _ in range(30):  # three seconds
+        shown.panel.draw(lesson["trained"])
+    assert shown.posted == []
+    assert problem.visible
+    assert why in problem.content
+    assert "studio teach" not in problem.content  # which reads no session
+    opening = replace(lesson["trained"], export=ExportStatus(opening="yours.zip"))
+    shown.panel.draw(opening)
+    assert not problem.visible
+    assert "Opening yours.zip" in shown.panel._opening.content
+
+
+def test_the_cure_for_a_large_session_is_on_the_page() -> None:
+    panels = Path(recordings.__file__).read_text()
+    for label in ("Other path", "Recordings folder"):
+        assert label in _TOO_LARGE
+        assert f'"{label}"' in panels
+
+
+def test_another_upload_takes_the_refusal_away(shown: Shown) -> None:
+    for name, content in (("empty.zip", b""), ("good.zip", b"PK\x03\x04")):
+        upload = SimpleNamespace(name=name, content=content)
+        shown.panel._receive(SimpleNamespace(target=SimpleNamespace(value=upload)))
+    assert not shown.panel._problem.visible
+    assert len(shown.posted) == 1
+
+
+def test_the_palette_exports_what_is_ticked(shown: Shown, lesson) -> None:
+    """Whichever step is open: it goes by the snapshot, not by what was drawn last."""
+    order = shown.panel.order
+    shown.panel.draw(lesson["start"])
+    shown.panel._boxes["csv"].value = True
+    assert "Choose at least one" in order.why_not(lesson["start"])
+    assert order.why_not(lesson["trained"]) == ""
+    assert order.asks(lesson["trained"]) == commands.Export(("csv", "zip"), anonymous=False)
+    running = replace(lesson["trained"], export=ExportStatus(("video",), 0.42))
+    assert "is being written" in order.why_not(running)

@@ -1,5 +1,6 @@
 """No name survives: all that is exported is unpacked, and searched byte by byte."""
 
+import base64
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -8,16 +9,20 @@ from zipfile import ZipFile
 
 import numpy as np
 import pytest
+import zstandard
 
-from studio.engine.export import Job, Material, Take, export
+from studio.engine.export import Job, Material, Take, export, report_page, video
 from studio.engine.export.anonymous import anonymous
 from studio.engine.mcap_log import MAGIC, LogReader
 from studio.engine.recording import Recording
-from studio.engine.teaching import learn
+from studio.engine.teaching import learn, reproduce
+from studio.panels.replay_page import replay_page
 from tests.engine.export.materials import done
 
 SECRETS = ("Zebedee", "zanzibar-7", "xylophone", "body-quux", "wolfgang")
-KINDS = ("csv", "npz", "mcap", "model", "zip")
+KINDS = ("csv", "npz", "mcap", "model", "html", "zip")
+PLAIN = 0.02  # [m] the replayed robot's detail
+_SCENE = re.compile(rb'__VISER_EMBED_DATA__="([^"]+)"')  # in a replay: its size, then zstd
 
 
 def named(recording: Recording, number: int) -> Recording:
@@ -59,6 +64,8 @@ def unpacked(path: Path) -> Iterator[bytes]:
             yield repr(list(log)).encode()
             assert not log.problem
             yield repr(log.metadata).encode()
+    for scene in _SCENE.findall(content):
+        yield zstandard.ZstdDecompressor().decompressobj().decompress(base64.b64decode(scene)[8:])
 
 
 def everything(folder: Path) -> bytes:
@@ -66,7 +73,10 @@ def everything(folder: Path) -> bytes:
     return found + found.replace(b"\0", b"")  # NumPy writes letters four bytes each
 
 
-def test_no_name_is_in_any_byte(material: Material, tmp_path: Path) -> None:
+def test_no_name_is_in_any_byte(
+    material: Material, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(report_page, "DEFAULT_LEARNERS", ("rbf",))  # others only take longer
     for folder, is_anonymous in ((tmp_path / "named", False), (tmp_path / "nameless", True)):
         export(material, KINDS, Job(folder), anonymous=is_anonymous)
         found = everything(folder)
@@ -74,6 +84,42 @@ def test_no_name_is_in_any_byte(material: Material, tmp_path: Path) -> None:
             there = re.search(secret.encode(), found, re.IGNORECASE) is not None
             # Warnings are never written; all others are found where names are kept.
             assert there == (not is_anonymous), secret
+
+
+@pytest.fixture(scope="module")
+def done_alone(material: Material) -> Material:
+    """Return the material with the first second of a reproduction."""
+    whole = reproduce(material.lesson)
+    performance = replace(whole.performance, ticks=whole.performance.ticks[:30])
+    return replace(material, reproduction=replace(whole, performance=performance))
+
+
+@pytest.mark.parametrize("is_anonymous", [False, True])
+def test_no_name_is_in_the_replay_nor_in_the_film(
+    done_alone: Material, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_anonymous: bool
+) -> None:
+    """They show the name of a demonstration, the film as letters that nobody could search for."""
+    shown = anonymous(done_alone) if is_anonymous else done_alone
+    ghost = shown.lesson.taught.demonstrations[0]
+    page = replay_page(shown.lesson, shown.reproduction, ghost, Job(tmp_path), PLAIN)
+    (tmp_path / "replay.html").write_bytes(page)
+    titles: list[str] = []
+
+    def film(_path: Path, sides: tuple[video.Side, ...], *_: object) -> int:
+        titles.extend(side.title for side in sides)
+        return 0
+
+    monkeypatch.setattr(video, "write_film", film)
+    export(done_alone, ["video"], Job(tmp_path), anonymous=is_anonymous)
+    assert titles == [
+        f"Demonstration: {'demonstration 1' if is_anonymous else 'wolfgang 0'}",
+        "Alone: rbf, 50 neurons",
+    ]
+    found = everything(tmp_path)
+    assert b"ghost: " in found
+    for secret in SECRETS:
+        there = re.search(secret.encode(), found, re.IGNORECASE) is not None
+        assert there == (secret == "wolfgang" and not is_anonymous), secret
 
 
 def test_only_names_are_gone(material: Material) -> None:
