@@ -1,6 +1,7 @@
 """The command ``studio evaluate``."""
 
 import contextlib
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -254,10 +255,11 @@ class Evaluate:
     ) -> Iterator[Journal | None]:
         """Yield where trials are kept; None where no folder is given."""
         if self.out is None:
+            log("not resumable: --out FOLDER would keep each trial, and go on after a break")
             yield None
             return
         header = header_of(motions, conditions.scene, conditions.widths, conditions.seed)
-        with Journal(self.out, header) as journal:
+        with Journal(self.out, header, time.monotonic) as journal:
             if journal.known:
                 log(f"{self.out}: going on after {len(journal.known)} trials")
             yield journal

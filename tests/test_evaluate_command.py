@@ -69,10 +69,11 @@ def test_a_model_is_told_as_json_and_as_words(swinging, capsys) -> None:
     printed = capsys.readouterr()
     assert f"{found['model']['successes']} of 3" in printed.out
     assert "studio: 3 of 3" in printed.err
+    assert "not resumable: --out FOLDER would keep each trial" in printed.err
 
 
-# The command, in a process that ends itself and its workers without any farewell, as a kill or a
-# power cut would end it, as soon as so many trials are kept: no clock, no chance.
+# The command, in a process that ends itself and its workers without any farewell, as a kill
+# would end it, as soon as so many trials are kept: no clock, no chance.
 KILLED = """
 import os, signal, sys
 from studio.cli import main
@@ -137,7 +138,9 @@ def test_another_setting_under_the_same_folder_is_refused(swinging, tmp_path, ca
     assert run(*kept, "--mass", 10) == 1
     assert "other variations" in capsys.readouterr().err
     assert run(*kept[:-4], "--trials", 3, "--jobs", 1, "--out", tmp_path) == 0  # more of the same
-    assert "going on after 2 trials" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "going on after 2 trials" in said
+    assert "not resumable" not in said
 
 
 def test_a_models_scene_is_not_known_and_that_is_said(tmp_path, swinging, capsys) -> None:

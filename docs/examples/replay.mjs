@@ -1,7 +1,7 @@
 // Teaches the studio and replays what it learned, in plain JavaScript: nothing of ours is needed.
 //
 //     studio serve --no-page --remote 127.0.0.1:8766       (in another terminal)
-//     node docs/examples/replay.mjs --teach [--synchronous] [--url ws://...] [--token ...]
+//     node docs/examples/replay.mjs --teach [--synchronous | --blocking] [--url ws://...] [--token ...]
 //
 // It takes Node's own WebSocket (22 and later, or 20 with --experimental-websocket), else the
 // module "ws". It prints whether the block is down, and that is its exit status.
@@ -11,6 +11,7 @@ import { parseArgs } from "node:util";
 
 const RATE = 30; // joint targets a second
 const SETTLE = 1.5; // [s] after the motion, in which the block falls or stays
+const TICKS_BETWEEN_LOOKS = 5;
 const PATIENCE = 60_000; // [ms] for an answer
 
 function webSocket() {
@@ -38,18 +39,18 @@ class Studio {
   }
 
   hear(message) {
-    if (message.type === "joint_states") this.newest = message;
     if (message.type === "welcome") {
       this.joints = message.joints;
       this.greet();
       return;
     }
-    const asked = this.waiting.get(message.id);
+    const key = message.id ?? message.type; // what answers no request is of a stream, or news
+    const asked = this.waiting.get(key);
     if (asked === undefined) {
       if (message.type === "error") console.error(`studio: ${message.words}`);
       return;
     }
-    this.waiting.delete(message.id);
+    this.waiting.delete(key);
     if (message.type === "error") asked.refuse(new Error(message.words));
     else asked.answer(message);
   }
@@ -63,6 +64,11 @@ class Studio {
       this.waiting.set(id, { answer: settle(answer), refuse: settle(refuse) });
       this.send({ ...request, id });
     });
+  }
+
+  /** Streaming: wait for the next frame of a stream. */
+  frame(stream) {
+    return new Promise((answer, refuse) => this.waiting.set(stream, { answer, refuse }));
   }
 
   do(command) {
@@ -79,7 +85,7 @@ class Studio {
     for (;;) {
       const now = await this.ask({ type: "get", what: "snapshot" });
       if (reached(now)) return now;
-      await pass();
+      for (let tick = 0; tick < TICKS_BETWEEN_LOOKS; tick++) await pass();
     }
   }
 }
@@ -125,37 +131,44 @@ function isThere(states, targets, joints) {
   return states.driven !== null && states.driven.follows && Math.max(...gaps) < 0.02;
 }
 
-/** `pass` lets one tick pass, and returns where the joints are then. */
+/** `pass` sends targets, lets one tick pass, and returns where the joints are then. */
 async function replay(studio, motion, pass) {
-  const drive = (targets) => studio.send({ type: "set_joint_target", targets });
   await studio.do({ type: "begin_driving" }); // after a Stop no target counts without it
   const begun = await studio.ask({ type: "get", what: "joint_states" });
   for (;;) {
-    drive(motion[0]);
-    const states = await pass(); // of a stream, a frame from before may be on its way
+    const states = await pass(motion[0]); // of a stream, a frame from before may be on its way
     if (states.tick > begun.tick && isThere(states, motion[0], studio.joints)) break;
   }
   const settling = new Array(Math.round(SETTLE * RATE)).fill(motion.at(-1));
-  for (const targets of [...motion, ...settling]) {
-    drive(targets);
-    await pass();
-  }
+  for (const targets of [...motion, ...settling]) await pass(targets);
 }
+
+const target = (targets) => ({ type: "set_joint_target", targets });
 
 /** Synchronous: the world stands still between two steps. */
 async function inSteps(studio) {
   await studio.ask({ type: "take_clock" });
-  return async () => (await studio.ask({ type: "step" })).state;
+  return async (targets) => {
+    if (targets !== undefined) studio.send(target(targets));
+    return (await studio.ask({ type: "step" })).state;
+  };
 }
 
-/** In real time: the joint states are a stream, whose newest frame is looked at. */
+/** Non-blocking, in real time: the joint states are a stream, which tells every tick. */
 async function inRealTime(studio) {
   await studio.ask({ type: "subscribe", stream: "joint_states", rate: RATE });
-  let due = performance.now();
-  return async () => {
-    due = Math.max(due + 1000 / RATE, performance.now());
-    await sleep(due - performance.now());
-    return studio.newest ?? studio.ask({ type: "get", what: "joint_states" });
+  return async (targets) => {
+    if (targets !== undefined) studio.send(target(targets));
+    return studio.frame("joint_states");
+  };
+}
+
+/** Blocking: each target is answered after the tick that took it. */
+async function answered(studio) {
+  return async (targets) => {
+    if (targets === undefined) await sleep(1000 / RATE);
+    else await studio.do(target(targets));
+    return studio.ask({ type: "get", what: "joint_states" });
   };
 }
 
@@ -164,12 +177,14 @@ const { values } = parseArgs({
     url: { type: "string", default: "ws://127.0.0.1:8766" },
     token: { type: "string" },
     synchronous: { type: "boolean", default: false },
+    blocking: { type: "boolean", default: false },
     teach: { type: "boolean", default: false },
   },
 });
 const studio = await Studio.connect(values.url, values.token);
 await takeControl(studio);
-const pass = await (values.synchronous ? inSteps : inRealTime)(studio);
+const way = values.synchronous ? inSteps : values.blocking ? answered : inRealTime;
+const pass = await way(studio);
 if (values.teach) await teach(studio, pass);
 const lesson = await studio.ask({ type: "fetch", what: "lesson" });
 await studio.do({ type: "put_block_back" }); // a fresh world, the robot waits beside the block

@@ -3,17 +3,17 @@
     studio serve --no-page --remote 127.0.0.1:8766     # in another terminal
     python docs/examples/replay_from_outside.py model.json --teach
 
-Without ``--teach`` it takes a model.json that the studio has exported. ``--synchronous`` takes the
-studio's clock: the world stands still between two steps, so that it does not matter how long this
-program thinks. It prints whether the block is down, and that is its exit status.
+Without ``--teach`` it takes a model.json that the studio has exported. It sends each target when it
+is due, and waits for no answer; with ``--blocking`` it waits for the answer to each, which comes
+after the tick that took it. ``--synchronous`` takes the studio's clock: the world stands still
+between two steps, so that it does not matter how long this program thinks. It prints whether the
+block is down, and that is its exit status.
 """
 
 import argparse
 import json
 import sys
-import time
 from contextlib import ExitStack
-from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +38,8 @@ def main() -> int:
         studio.do(commands.PutBlockBack())  # a fresh world, the robot waits beside the block
         if clock is not None:
             down = replay_in_steps(studio, clock, motion)
+        elif options.blocking:
+            down = replay_answered(studio, motion)
         else:
             down = replay_in_real_time(studio, motion)
         for words in studio.complaints:  # such as that somebody has stopped Baxter
@@ -53,7 +55,9 @@ def parsed() -> argparse.Namespace:
     parser.add_argument("--url", default="ws://127.0.0.1:8766", help="where the studio is")
     parser.add_argument("--token", help="what the studio wants to be shown, if anything")
     parser.add_argument("--arm", default="left", choices=("left", "right"))
-    parser.add_argument("--synchronous", action="store_true", help="the world waits for each step")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--synchronous", action="store_true", help="the world waits for each step")
+    how.add_argument("--blocking", action="store_true", help="wait for the answer to each target")
     parser.add_argument("--teach", action="store_true", help="teach first, and write the model")
     return parser.parse_args()
 
@@ -81,15 +85,25 @@ def rows_of(saved: SavedModel, arm: str) -> list[dict[str, float]]:
 
 
 def replay_in_real_time(studio: Studio, motion: list[dict[str, float]]) -> bool:
-    """Send each target when it is due, and wait for no answer; watch the block meanwhile."""
-    blocks = studio.stream(Block, rate=10.0)
+    """Send each target when it is due by the studio's time, which a stream tells tick by tick."""
+    blocks = studio.stream(Block)
     studio.move_to(motion[0])
-    begun = time.monotonic()
-    for k, targets in enumerate(motion):
-        time.sleep(max(0.0, begun + k / RATE - time.monotonic()))
-        studio.set_joint_target(targets)
-    end = time.monotonic() + SETTLE
-    return any(block.down for block in takewhile(lambda _: time.monotonic() < end, blocks))
+    begun = studio.block().time
+    end = begun + len(motion) / RATE + SETTLE
+    for block in blocks:  # those from before `begun`, which wait to be read, repeat the first one
+        row = round((block.time - begun) * RATE)
+        studio.set_joint_target(motion[min(max(row, 0), len(motion) - 1)])
+        if block.time >= end:
+            break
+    return block.down
+
+
+def replay_answered(studio: Studio, motion: list[dict[str, float]]) -> bool:
+    """Send a target, wait until a tick has taken it, and so on."""
+    studio.move_to(motion[0])
+    for targets in motion + [motion[-1]] * round(SETTLE * RATE):
+        studio.do(commands.SetJointTarget(targets))
+    return studio.block().down
 
 
 def replay_in_steps(studio: Studio, clock: Clock, motion: list[dict[str, float]]) -> bool:

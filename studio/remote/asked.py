@@ -8,11 +8,12 @@ from studio.remote.commands import Command, SetJointTarget
 from studio.remote.message import Id, Message, Text
 
 FASTEST = 30.0  # [Hz] of a stream: the studio's ticks
+SLOWEST = 0.01  # [Hz]
 MOST_TICKS = 3000  # of one request: 100 s
 PART = 256 * 1024  # [bytes] of a file in one message, at most
 
 Stream = Literal["joint_states", "gate", "block", "snapshot"]
-Rate = Annotated[float, msgspec.Meta(gt=0.0, le=FASTEST)]
+Rate = Annotated[float, msgspec.Meta(ge=SLOWEST, le=FASTEST)]
 Ticks = Annotated[int, msgspec.Meta(ge=1, le=MOST_TICKS)]
 Patience = Annotated[float, msgspec.Meta(ge=0.1, le=600.0)]
 Index = Annotated[int, msgspec.Meta(ge=0, le=2**53 - 1)]
@@ -37,7 +38,7 @@ class Subscribe(Message, frozen=True):
 
     id: Id
     stream: Stream
-    rate: Rate = FASTEST  # [Hz] of the session's time
+    rate: Rate = FASTEST  # [Hz] of the session's time, on average and at most
 
 
 class Unsubscribe(Message, frozen=True):

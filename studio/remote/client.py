@@ -218,7 +218,7 @@ class Studio:
         self._ask(lambda n: asked.Unsubscribe(n, stream), told.Done)  # so that no old frame comes
         frames = self._link.begin(stream)
         self._ask(lambda n: asked.Subscribe(n, stream, rate), told.Done)
-        patience = self._link.timeout if timeout is None else timeout
+        patience = self._link.timeout + 1.0 / rate if timeout is None else timeout
 
         def each() -> Iterator[_Frame]:
             try:

@@ -6,21 +6,16 @@ from pathlib import Path
 import pytest
 
 from studio.engine.sweep import sweep
+from tests.engine import dask_here
+from tests.engine.dask_here import two_workers
 from tests.engine.sweeps import Ticking, samples
 
 
 @pytest.mark.cluster
 @pytest.mark.filterwarnings("ignore")  # what dask warns of is not ours
 def test_dask_gives_the_same_numbers():
-    joblib = pytest.importorskip("joblib", reason="joblib comes with the extra cluster")
-    distributed = pytest.importorskip("distributed", reason="dask comes with the extra cluster")
     here = sweep(samples(), Ticking(), ("rbf",), (5, 15))
-    local = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
-    with (
-        distributed.LocalCluster(**local, processes=False) as cluster,
-        distributed.Client(cluster),
-        joblib.parallel_config(backend="dask"),
-    ):
+    with two_workers(processes=False):
         there = sweep(samples(), Ticking(), ("rbf",), (5, 15))
     for row, other in zip(here.rows, there.rows, strict=True):
         assert (row.quality.curve == other.quality.curve).all()
@@ -39,3 +34,13 @@ def test_the_guides_page_names_what_exists():
         exec(line, names)
     for call in ("teach", "sweep", "compare", "sweep_page"):
         assert callable(names[call])
+
+
+def test_without_dask_it_is_said_and_in_ci_it_fails(monkeypatch):
+    monkeypatch.setattr(dask_here, "find_spec", lambda _: None)
+    monkeypatch.delenv("CI", raising=False)
+    with pytest.raises(pytest.skip.Exception, match="extra cluster"), two_workers(processes=False):
+        pass
+    monkeypatch.setenv("CI", "true")
+    with pytest.raises(AssertionError, match="extra cluster"), two_workers(processes=False):
+        pass

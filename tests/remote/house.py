@@ -33,6 +33,8 @@ class House:
     overheard: Overheard
     folder: Path
     programs: list[subprocess.Popen[str]] = field(default_factory=list)
+    halts: int = 0  # ticks in which the robot held, as a program that drove it said nothing
+    failed: int = 0  # tries of programs that were run
 
     @property
     def url(self) -> str:
@@ -62,14 +64,24 @@ class House:
     def run(self, *command: str | Path, tries: int = 1, **environment: str) -> str:
         """Run a program until it succeeds, at most so often, and return what it printed.
 
-        What goes by real time may need more than one try: a busy machine may halt it for a second.
+        Nothing that it asks is refused. A try may fail only if the program was silent for so long
+        that the robot held (``halts``): a busy machine may stop a process for that long, which no
+        program can help.
         """
         for _ in range(tries):
+            before = self.halts
             program = self.start(*command, **environment)
             printed, said = program.communicate(timeout=2 * PATIENCE)
             if program.returncode == 0:
+                assert self.failed or self.overheard.count("told", "error") == 0, said
                 return printed
+            self.failed += 1
+            assert self.halts > before, (printed, said)
         raise AssertionError((printed, said))
+
+    def look(self, now: Snapshot) -> None:
+        """Take note of a tick."""
+        self.halts += now.driven is not None and now.driven.holds
 
     def stop_once_driven(self) -> None:
         """Press Stop in the first tick that comes in which a program drives, however soon."""
@@ -95,6 +107,7 @@ def open_house(folder: Path, speed: float = 1.0, token: str | None = None) -> It
         address = Address("127.0.0.1", 0)
         server = stack.enter_context(RemoteServer(loop, seat, address, token, overheard))
         house = House(loop, seat, server, overheard, folder)
+        loop.watch(house.look)
         stack.callback(_end, house)
         yield house
     assert overheard.check() > 0

@@ -32,6 +32,7 @@ def test_its_numbers_are_those_of_the_code() -> None:
         f"asked every {house.alive_every:.0f} s, and gone after {house.alive_every:.0f} more",
         f"after {guest.MOST_UNREADABLE} at once",
         f"at up to {asked.FASTEST:.0f} Hz",
+        f"from {asked.SLOWEST:g} to {asked.FASTEST:.0f} Hz",
         f"more than {outbox.MOST_ANSWERS} of them wait",
         f"more than {outbox.MOST_BYTES // 2**20} MB behind the next one",
         f"uploads of all programs above {shelf.MOST_KEPT // 2**20} MB",

@@ -12,11 +12,12 @@ from tests.remote.house import ROOT, House, open_house
 
 DEBIANS_MODULES = "/usr/share/nodejs"
 DOWN = "the block is down\n"
+SPEED = 3.0  # of the session's time: the example goes by that, and so takes a third
 
 
 @pytest.fixture(scope="module")
 def house(tmp_path_factory):
-    with open_house(tmp_path_factory.mktemp("house")) as opened:
+    with open_house(tmp_path_factory.mktemp("house"), SPEED) as opened:
         yield opened
 
 
@@ -52,7 +53,15 @@ def test_synchronous_it_teaches_and_replays(taught: str) -> None:
     assert taught == DOWN
 
 
-def test_without_waiting_it_replays_in_real_time(house: House, taught: str) -> None:
-    assert replay(house, tries=3) == DOWN
+def test_without_waiting_it_teaches_and_replays_in_real_time(house: House) -> None:
+    before = len(house.now.entries)
+    assert replay(house, "--teach", tries=3) == DOWN
+    assert len(house.now.entries) > before
     assert "subscribe" in house.overheard.types("asked")
     assert "joint_states" in house.overheard.types("told")
+
+
+def test_by_blocking_calls_it_replays(house: House, taught: str) -> None:
+    answered = house.overheard.count("told", "done")
+    assert replay(house, "--blocking", tries=3) == DOWN
+    assert house.overheard.count("told", "done") > answered + 100  # each target's

@@ -8,11 +8,12 @@ import pytest
 from tests.remote.house import ROOT, House, open_house
 
 DOWN = "the block is down\n"
+SPEED = 3.0  # of the session's time: the example goes by that, and so takes a third
 
 
 @pytest.fixture(scope="module")
 def house(tmp_path_factory):
-    with open_house(tmp_path_factory.mktemp("house")) as opened:
+    with open_house(tmp_path_factory.mktemp("house"), SPEED) as opened:
         yield opened
 
 
@@ -36,11 +37,17 @@ def test_synchronous_it_teaches_and_replays(house: House, taught: tuple[Path, st
     assert {"take_clock", "step", "set_joint_target", "do", "fetch", "control"} <= types
 
 
-def test_without_waiting_it_replays_in_real_time(house: House, taught: tuple[Path, str]) -> None:
-    model = json.loads(taught[0].read_text())
-    model["time"]["duration_s"] *= 0.6
-    quick = taught[0].with_name("quick.json")
-    quick.write_text(json.dumps(model))
-    assert replay(house, quick, tries=3) == DOWN
+def test_without_waiting_it_teaches_and_replays_in_real_time(house: House, tmp_path: Path) -> None:
+    model = tmp_path / "model.json"
+    before = len(house.now.entries)
+    assert replay(house, model, "--teach", tries=3) == DOWN
+    assert len(house.now.entries) > before
+    assert json.loads(model.read_text())["learner"] == "RBFRegressor"
     assert "subscribe" in house.overheard.types("asked")
     assert "block" in house.overheard.types("told")
+
+
+def test_by_blocking_calls_it_replays(house: House, taught: tuple[Path, str]) -> None:
+    answered = house.overheard.count("told", "done")
+    assert replay(house, taught[0], "--blocking", tries=3) == DOWN
+    assert house.overheard.count("told", "done") > answered + 100  # each target's

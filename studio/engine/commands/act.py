@@ -22,7 +22,7 @@ class Configure:
 class ChooseScene:
     """Choose what stands around Baxter, and what is to be done with it."""
 
-    scene: str | Scene  # the name of one that ships, the path of a user's own file, or itself
+    scene: str | Scene  # one that ships, all that a program may name; or a file's path, or itself
 
     def among(self, choices: Choices) -> Choices:
         """Return what was chosen before, in this scene; raise FileError where there is none."""

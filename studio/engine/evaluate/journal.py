@@ -8,17 +8,22 @@
 The first line says what the trials are of. A folder with another first line is refused, so that
 no table is ever made of two things; how many trials are asked for is not in it, for more of the
 same go on where the others ended. A process that is killed leaves at most a torn last line, which
-is dropped: that trial is done once more, with the same outcome. One process at a time has the file.
+is dropped: that trial is done once more, with the same outcome. A power cut costs the trials of a
+second at most, for so often the file is brought to the disk. One process at a time has the file.
 """
 
+import contextlib
 import hashlib
 import json
+import math
+import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from importlib.metadata import version
+from io import FileIO
 from pathlib import Path
-from typing import Any, BinaryIO, Self
+from typing import Any, Self
 
 from numpy.typing import NDArray
 
@@ -36,6 +41,7 @@ if sys.platform != "win32":
 FILE = "trials.jsonl"
 FORMAT, SCHEMA = "teaching-studio evaluation", 2  # 1 drew and judged otherwise
 _LIBRARIES = ("numpy", "pybullet")  # what outcomes depend on
+_SYNC_EVERY = 1.0  # [s]
 _LARGEST = 1 << 30  # [bytes] of a file that is read; a trial takes some 80
 _IN_WORDS = {
     "versions": "another version of the studio or its libraries",
@@ -84,6 +90,9 @@ class Journal:
         Where its file is, or will be; made if it is not there.
     header
         What the trials are of, see `header_of`.
+    now
+        The time [s]: what is kept is brought to the disk once a second. Without a clock that is
+        done for each trial, which takes some milliseconds.
 
     Raises
     ------
@@ -91,13 +100,16 @@ class Journal:
         Where the folder or its file cannot be used, or holds trials of something else.
     """
 
-    def __init__(self, folder: Path, header: Mapping[str, Any]) -> None:
+    def __init__(
+        self, folder: Path, header: Mapping[str, Any], now: Callable[[], float] | None = None
+    ) -> None:
+        self._now, self._synced = now, -math.inf  # [s]
         self.path = folder / FILE
         self.known: dict[Key, Outcome] = {}
         self._header = dict(header)
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            self._file: BinaryIO = self.path.open("ab", buffering=0)
+            self._file: FileIO = self.path.open("ab", buffering=0)
         except OSError as error:
             raise FileError(f"{self.path}: cannot be used: {error.strerror}") from error
         try:
@@ -112,6 +124,8 @@ class Journal:
     def add(self, key: Key, outcome: Outcome) -> None:
         """Keep a trial that is over; a kill from here on loses nothing of it.
 
+        Nothing of a line that cannot be written whole stays in the file.
+
         Raises
         ------
         FileError
@@ -125,8 +139,18 @@ class Journal:
         self.known[key] = outcome
 
     def close(self) -> None:
-        """Close the file."""
-        self._file.close()
+        """Bring what is kept to the disk, and close the file.
+
+        Raises
+        ------
+        FileError
+            Where the disk cannot keep it.
+        """
+        with self._file:
+            try:
+                os.fsync(self._file.fileno())
+            except OSError as error:
+                raise FileError(f"{self.path}: cannot be written: {error.strerror}") from error
 
     def __enter__(self) -> Self:
         return self
@@ -144,13 +168,34 @@ class Journal:
                 "another folder for --out"
             ) from error
         whole = self._read()
-        if whole < self.path.stat().st_size:  # a torn last line
-            self._file.truncate(whole)
+        self._whole = whole
+        self._trim()  # a torn last line
         if whole == 0:
             self._write(self._header)
+            _sync_folder(self.path.parent)  # or a power cut may take the file's name
 
     def _write(self, line: Mapping[str, Any]) -> None:
-        self._file.write((json.dumps(line, allow_nan=False) + "\n").encode())
+        """Append a line: all of it, or nothing and an OSError."""
+        self._trim()  # where nothing could be done about the last one
+        text = (json.dumps(line, allow_nan=False) + "\n").encode()
+        rest = memoryview(text)
+        try:
+            while rest:  # where a disk is nearly full, a part of it is written at first
+                rest = rest[self._file.write(rest) :]
+        except OSError:
+            with contextlib.suppress(OSError):
+                self._trim()
+            raise
+        self._whole += len(text)
+        now = math.inf if self._now is None else self._now()
+        if now - self._synced >= _SYNC_EVERY:
+            os.fsync(self._file.fileno())
+            self._synced = -math.inf if self._now is None else now
+
+    def _trim(self) -> None:
+        """Cut off what lies behind the last whole line."""
+        if os.fstat(self._file.fileno()).st_size > self._whole:
+            self._file.truncate(self._whole)
 
     def _read(self) -> int:
         """Take in what is there, and return how many bytes of it are whole lines."""
@@ -184,10 +229,19 @@ class Journal:
 _CURE = "choose another folder for --out, or ask for the same as before"
 
 
-def _claim(file: BinaryIO) -> None:
+def _claim(file: FileIO) -> None:
     """Keep others out until it is closed, or raise BlockingIOError; Windows has no such locks."""
     if sys.platform != "win32":
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Bring a folder's list of files to the disk; Windows does that by itself."""
+    if sys.platform != "win32":
+        opened = os.open(folder, os.O_RDONLY)
+        with contextlib.suppress(OSError):  # a file system of a network may know no such thing
+            os.fsync(opened)
+        os.close(opened)
 
 
 def _trial(table: Mapping[str, object]) -> tuple[Key, Outcome]:

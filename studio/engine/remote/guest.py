@@ -1,11 +1,13 @@
 """A program that is connected: what it subscribed to, what it waits for, how much it sends."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from studio.engine.inbox import Answer
 from studio.engine.live.reception import TokenBucket
 from studio.engine.remote.outbox import Outbox
+from studio.engine.robot import CONTROL_RATE
 from studio.remote.asked import Stream
 
 FLOOD = 5_000.0  # messages a second; whoever sends more costs time even unread, and is sent away
@@ -15,6 +17,25 @@ MOST_UNREADABLE = 20  # messages at once; a few more a second are forgiven
 _FORGIVEN = 5.0  # a second
 MOST_WAITING = 32  # commands that have not taken effect
 COMPLAIN_EVERY = 1.0  # [s] between two errors that answer no request
+
+
+@dataclass(frozen=True)
+class Subscription:
+    """A stream at a rate that need not divide that of the ticks: frames are spread over them.
+
+    In n ticks from its beginning there are as many whole periods as frames: never more than were
+    asked for, and that rate on average.
+    """
+
+    rate: float  # [Hz]
+    begun: int  # the tick before its first one
+
+    def is_due(self, tick: int) -> bool:
+        """Tell whether a period ends with a tick."""
+        return self._periods(tick) > self._periods(tick - 1)
+
+    def _periods(self, tick: int) -> int:
+        return math.floor((tick - self.begun) * self.rate / CONTROL_RATE)
 
 
 @dataclass(eq=False)
@@ -27,7 +48,7 @@ class Guest:
     flood: TokenBucket
     requests: TokenBucket
     unreadable: TokenBucket
-    streams: dict[Stream, int] = field(default_factory=dict)  # every how many ticks
+    streams: dict[Stream, Subscription] = field(default_factory=dict)
     waiting: int = 0  # commands that have not taken effect
     complained: float | None = None  # [s] when
     answer: Answer | None = None  # to its joint targets

@@ -92,10 +92,8 @@ class Reception:
         guest.outbox.answer(welcome)
         return guest
 
-    def receive(self, guest: Guest, message: str | bytes) -> bool:
+    def receive(self, guest: Guest, message: str | bytes) -> None:
         """Take in a message; what it is answered goes into the guest's outbox.
-
-        Return whether it was understood.
 
         Raises
         ------
@@ -113,32 +111,31 @@ class Reception:
             if not guest.unreadable.take(now):
                 raise LeaveError("too much that cannot be read: see docs/remote.md") from None
             guest.outbox.answer(told.Error(words=str(error), id=error.id, place=error.place))
-            return False
+            return
         number = getattr(asked, "id", None)
         if not isinstance(asked, SetJointTarget) and not guest.requests.take(now):
             self._refuse(guest, number, "too fast: wait for answers before asking again")
-            return True
+            return
         try:
             self._requests.serve(guest, asked)
         except (StudioError, OSError, ValueError) as error:
             self._refuse(guest, number, str(error))
-        return True
 
     def leave(self, guest: Guest) -> None:
         """Take note that a program has gone: time goes on, and Baxter is let go."""
-        self._clock.end("", guest)
         self._guests.remove(guest)
-        self._requests.leave(guest)
-        if self._seat.leave(guest.name):
+        if self._seat.leave(guest.name):  # before all else that might fail: Baxter is let go
             self._requests.let_go(CLOSED)
+        self._clock.end("", guest)
+        self._requests.leave(guest)
 
     def ticked(self, now: Snapshot) -> None:
         """Offer a tick's snapshot to whoever subscribed."""
         self._tick += 1
         made: dict[Stream, Frame | None] = {}
         for guest in self._guests:
-            for stream, every in guest.streams.items():
-                if self._tick % every == 0:
+            for stream, subscription in guest.streams.items():
+                if subscription.is_due(self._tick):
                     if stream not in made:
                         made[stream] = self._frame(stream, now)
                     frame = made[stream]
@@ -148,12 +145,12 @@ class Reception:
     def look(self) -> None:
         """Do what is due by now, ten times a second: pass the seat on, tell roles, free files."""
         self._roles.look(self._guests)
-        self._requests.tidy()
         owner = self._clock.owner
         if owner is not None and not self._roles.controls(owner):
             self._clock.end(SEAT_LOST)
         if owner is not None and self._requests.is_linked():
             self._clock.end(LINKED)
+        self._requests.tidy()
 
     def close(self) -> None:
         """Let go of everything: time goes on by itself, uploads are deleted."""

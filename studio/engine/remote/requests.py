@@ -15,13 +15,13 @@ from studio.engine import commands
 from studio.engine.errors import StudioError
 from studio.engine.inbox import Answer
 from studio.engine.remote.clockwork import Clockwork
-from studio.engine.remote.guest import MOST_WAITING, Guest
-from studio.engine.remote.large import demonstration, large
+from studio.engine.remote.guest import MOST_WAITING, Guest, Subscription
+from studio.engine.remote.large import LargeAnswers, demonstration
 from studio.engine.remote.roles import Roles
 from studio.engine.remote.shelf import Shelf
 from studio.engine.remote.views import frame_of
 from studio.engine.remote.wire import as_command, readable
-from studio.engine.robot import CONTROL_RATE, JOINT_NAMES
+from studio.engine.robot import JOINT_NAMES
 from studio.engine.scene_file import scene_names
 from studio.engine.snapshot import Message, Mode, Snapshot
 from studio.remote import asked as wire
@@ -78,6 +78,7 @@ class Requests:
     ) -> None:
         self._session, self._roles, self._clock, self._shelf = session, roles, clock, shelf
         self._later, self._tick, self._refuse = later, tick, refuse
+        self._large = LargeAnswers()
         self._told_stopped: WeakSet[Guest] = WeakSet()  # since the last Stop
         self._left: list[Guest] = []  # whose files are not freed yet
         self._serving: dict[type[Any], Callable[[Guest, Any], None]] = {
@@ -210,7 +211,7 @@ class Requests:
         guest.outbox.answer(msgspec.structs.replace(frame, id=asked.id))
 
     def _subscribe(self, guest: Guest, asked: wire.Subscribe) -> None:
-        guest.streams[asked.stream] = max(1, round(CONTROL_RATE / asked.rate))
+        guest.streams[asked.stream] = Subscription(asked.rate, self._tick())
         guest.outbox.forget(asked.stream)  # what comes after the answer is of this subscription
         guest.outbox.answer(told.Done(id=asked.id))
 
@@ -237,7 +238,7 @@ class Requests:
         self._clock.give(guest, asked.id)
 
     def _fetch(self, guest: Guest, asked: wire.Fetch) -> None:
-        guest.outbox.answer(large(asked, self._session().snapshot))
+        guest.outbox.answer(self._large.to(asked, self._session().snapshot))
 
     def _fetch_demonstration(self, guest: Guest, asked: wire.FetchDemonstration) -> None:
         guest.outbox.answer(demonstration(asked, self._session().snapshot))

@@ -53,7 +53,7 @@ class RemoteServer:
         Where to listen, and what has to be presented there. Without a token only this machine's
         programs are let in.
     overhear
-        Is told every message that was understood or sent, on the server's thread.
+        Is told every message that comes or goes, whatever it is, on the server's thread.
 
     Raises
     ------
@@ -70,6 +70,7 @@ class RemoteServer:
         overhear: Overheard | None = None,
     ) -> None:
         self._loop, self._overhear = loop, overhear
+        self._look_failed = False  # which is said once
         self._doorway = Doorway(
             _HOUSE, address, token, self._handle, lambda _: None, beside=self._look
         )
@@ -100,7 +101,15 @@ class RemoteServer:
     async def _look(self) -> None:
         while True:
             await asyncio.sleep(_LOOK_EVERY)
+            self._look_once()
+
+    def _look_once(self) -> None:
+        try:
             self._reception.look()
+        except Exception:  # of one look: control is handed over by the next ones
+            if not self._look_failed:
+                _LOG.exception("what is due ten times a second has failed")
+            self._look_failed = True
 
     async def _handle(self, connection: ServerConnection) -> None:
         """Serve one program until it leaves."""
@@ -110,9 +119,9 @@ class RemoteServer:
         sending = asyncio.create_task(self._send(connection, guest, waiting))
         try:
             async for message in connection:
-                understood = self._reception.receive(guest, message)
-                if self._overhear is not None and understood:
+                if self._overhear is not None:
                     self._overhear("asked", str(message))
+                self._reception.receive(guest, message)
         except LeaveError as error:
             await connection.close(CloseCode.POLICY_VIOLATION, str(error))
         except ConnectionClosed:
@@ -121,8 +130,8 @@ class RemoteServer:
             _LOG.exception("a program's connection has failed")
             await connection.close(CloseCode.INTERNAL_ERROR, "the studio has failed")
         finally:
-            self._reception.leave(guest)
             sending.cancel()
+            self._reception.leave(guest)
             with contextlib.suppress(asyncio.CancelledError):
                 await sending
 

@@ -3,6 +3,7 @@
 A name is compared with those of files that the studio knows, and is never a way through folders.
 """
 
+import logging
 import threading
 from collections.abc import Set
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ from studio.remote.asked import PART, FetchFile, Upload
 from studio.remote.files import OnStudio, Place, Recorded, Sample, Uploaded
 from studio.remote.told import FilePart, UploadTaken
 
+_LOG = logging.getLogger(__name__)
 MOST_KEPT = 4 * LARGEST  # [bytes] of all uploads together
 _LEAST = 4096  # [bytes] that the smallest file counts for: what it takes of a disk
 
@@ -39,6 +41,7 @@ class Shelf:
     def __init__(self) -> None:
         self._uploads: Uploads | None = None  # its folder is there from the first upload on
         self._kept: dict[str, _Kept] = {}
+        self._stuck: set[str] = set()  # what could not be deleted, and that was said
         self.size = 0  # [bytes] that all of them take
         self._lock = threading.Lock()
 
@@ -79,12 +82,8 @@ class Shelf:
         with self._lock:
             mine = [name for name, kept in self._kept.items() if kept.owner == owner]
             spare = [name for name in mine if self._kept[name].path not in needed]
-            for name in spare:
-                kept = self._kept.pop(name)
-                self.size -= kept.weight
-                if self._uploads is not None:
-                    self._uploads.free(kept.path)
-            return len(spare) == len(mine)
+            gone = [name for name in spare if self._delete(name)]
+            return len(gone) == len(mine)
 
     def find(self, owner: str, place: Place, now: Snapshot) -> tuple[Path, str]:
         """Return where a file is that a program names, and what people call it.
@@ -127,6 +126,24 @@ class Shelf:
         """Delete all uploads."""
         if self._uploads is not None:
             self._uploads.close()
+
+    def _delete(self, name: str) -> bool:
+        """Delete a file and tell whether it is gone; the lock is held.
+
+        One that the disk does not let go of stays counted, for it takes room, and is tried again.
+        """
+        kept = self._kept[name]
+        try:
+            if self._uploads is not None:
+                self._uploads.free(kept.path)
+        except OSError as error:
+            if name not in self._stuck:
+                self._stuck.add(name)
+                _LOG.warning("%s, an upload, cannot be deleted: %s", kept.path, error)
+            return False
+        del self._kept[name]
+        self.size -= kept.weight
+        return True
 
     def _of(self, owner: str, upload: str) -> _Kept:
         kept = self._kept.get(upload)

@@ -11,7 +11,7 @@ class Calibrate(Message, frozen=True):
 class ChooseScene(Message, frozen=True):
     """Choose what stands around Baxter, and what is to be done with it."""
 
-    scene: Text  # the name of one that ships, the path of a user's own file, or itself
+    scene: Text  # one that ships, all that a program may name; or a file's path, or itself
 
 
 class Configure(Message, frozen=True):

@@ -16,7 +16,7 @@ from tests.remote.overheard import Overheard
 
 
 class Hall:
-    """See the module; time passes tick by tick. All that is told has to be documented."""
+    """See the module; time passes tick by tick. All that is said has to be documented."""
 
     def __init__(self, folder: Path) -> None:
         self.time, self.seat = 0.0, Seat()
@@ -34,10 +34,13 @@ class Hall:
 
     def ask(self, guest: Guest, message: dict | str | bytes) -> list[dict]:
         """What a guest is told at once."""
-        text = json.dumps(message) if isinstance(message, dict) else message
-        if self.reception.receive(guest, text):
-            self.overheard("asked", str(text))
+        self.send(guest, json.dumps(message) if isinstance(message, dict) else message)
         return self.told(guest)
+
+    def send(self, guest: Guest, message: str | bytes) -> None:
+        """Let a guest say something, whose answer stays in its outbox."""
+        self.overheard("asked", str(message))
+        self.reception.receive(guest, message)
 
     def do(self, guest: Guest, kind: str, **fields: object) -> dict:
         """What a command is answered once it took effect."""

@@ -1,5 +1,6 @@
 """What a program is answered, and what it may: decided without a socket."""
 
+import itertools
 import json
 from pathlib import Path
 
@@ -9,11 +10,14 @@ from hypothesis import strategies as st
 
 from studio.engine import commands
 from studio.engine.remote import outbox
-from studio.engine.remote.guest import FLOOD, MOST_UNREADABLE, MOST_WAITING
+from studio.engine.remote.guest import FLOOD, MOST_UNREADABLE, MOST_WAITING, Subscription
 from studio.engine.remote.outbox import MOST_ANSWERS
 from studio.engine.remote.reception import CLOSED, LeaveError
+from studio.engine.robot import CONTROL_RATE, JOINT_NAMES
 from studio.engine.seat import PATIENCE
 from studio.engine.snapshot import Mode
+from studio.engine.uploads import Uploads
+from studio.remote.asked import SLOWEST
 from tests.engine.remote.receiving import Hall, open_hall
 
 
@@ -134,6 +138,46 @@ def test_who_leaves_lets_go_in_words(hall: Hall) -> None:
     assert hall.seat.holder is None
 
 
+def test_who_leaves_lets_go_whatever_becomes_of_its_files(hall: Hall, monkeypatch, caplog) -> None:
+    guest, next_one = hall.enter(), hall.enter()
+    hall.do(guest, "use_demonstrator")
+    hall.do(guest, "record")
+    hall.ask(guest, {"type": "upload", "id": 3, "content": "AAEC", "name": "mine"})
+    hall.ask(next_one, {"type": "control", "id": 1, "action": "ask"})
+
+    def fail(*_: object) -> None:
+        raise OSError("the disk is gone")
+
+    with monkeypatch.context() as broken:
+        broken.setattr(Uploads, "free", fail)
+        hall.reception.leave(guest)
+        hall.tick()
+        assert hall.session.snapshot.mode is Mode.IDLE
+        assert hall.session.snapshot.message.text.startswith(CLOSED)
+        assert hall.seat.holder == next_one.name
+        for _ in range(3):
+            hall.reception.look()
+    assert hall.told(next_one)[-1]["controls"]
+    assert caplog.text.count("cannot be deleted: the disk is gone") == 1
+    assert hall.reception._shelf.size > 0  # what lies there takes room
+    hall.reception.look()  # the disk is back
+    assert hall.reception._shelf.size == 0
+
+
+def test_a_clock_that_cannot_be_given_back_leaves_no_ghost_in_the_seat(hall: Hall) -> None:
+    guest = hall.enter()
+    hall.ask(guest, {"type": "take_clock", "id": 1})
+
+    def fail() -> None:
+        raise RuntimeError("a fault of ours")
+
+    give, hall.steps.give = hall.steps.give, fail
+    with pytest.raises(RuntimeError):
+        hall.reception.leave(guest)
+    assert hall.seat.holder is None
+    hall.steps.give = give
+
+
 def test_who_only_reads_lets_nobody_go(hall: Hall) -> None:
     first, second = hall.enter(), hall.enter()
     hall.do(first, "use_demonstrator")
@@ -165,12 +209,47 @@ def test_a_stream_tells_every_so_many_ticks(hall: Hall, rate: float, every: int)
     assert hall.told(guest) == []
 
 
+@pytest.mark.parametrize("rate", [29.9, 25.0, 20.0, 12.0, 7.3, 0.25, SLOWEST])
+def test_any_rate_is_kept_on_average_and_never_exceeded(rate: float) -> None:
+    begun, ticks = 17, round(100 * CONTROL_RATE / rate)
+    subscription = Subscription(rate, begun)
+    due = [tick for tick in range(begun + 1, begun + ticks + 1) if subscription.is_due(tick)]
+    assert len(due) == pytest.approx(ticks * rate / CONTROL_RATE, abs=1.0)
+    for count, tick in enumerate(due, start=1):
+        assert count <= (tick - begun) * rate / CONTROL_RATE * (1 + 1e-12)
+    gaps = {after - before for before, after in itertools.pairwise(due)}
+    assert max(gaps) - min(gaps) <= 1  # frames are spread evenly
+
+
+def test_a_stream_that_does_not_divide_the_ticks_comes_as_often_as_asked(hall: Hall) -> None:
+    guest = hall.enter()
+    hall.tick(5)
+    hall.ask(guest, {"type": "subscribe", "id": 1, "stream": "block", "rate": 25.0})
+    seen = []
+    for _ in range(60):
+        hall.tick()
+        seen += hall.told(guest)
+    assert len(seen) == 50
+
+
+@pytest.mark.parametrize("rate", [1e-308, 0.0, 0.009, 30.1])
+def test_a_rate_that_cannot_be_is_refused_with_its_place(hall: Hall, rate: float) -> None:
+    guest = hall.enter()
+    hall.told(guest)
+    asked = {"type": "subscribe", "id": 1, "stream": "block", "rate": rate}
+    hall.overheard.garbage.add(json.dumps(asked))
+    (error,) = hall.ask(guest, asked)
+    assert (error["type"], error["id"], error["place"]) == ("error", 1, "$.rate")
+    hall.tick(3)
+    assert hall.told(guest) == []
+
+
 def test_who_reads_slowly_loses_frames_that_are_counted_and_no_answer(hall: Hall) -> None:
     guest = hall.enter()
     hall.ask(guest, {"type": "subscribe", "id": 1, "stream": "gate"})
     hall.ask(guest, {"type": "subscribe", "id": 2, "stream": "block"})
     for _ in range(10):
-        hall.reception.receive(guest, '{"type": "get", "id": 3, "what": "gate"}')
+        hall.send(guest, '{"type": "get", "id": 3, "what": "gate"}')
         hall.tick()
     told = hall.told(guest)
     assert [each["id"] for each in told[:-2]] == [3] * 10
@@ -207,15 +286,16 @@ def test_a_target_that_is_asked_for_is_answered_though_newer_ones_replace_it(hal
 
 def test_floods_and_garbage_are_sent_away(hall: Hall) -> None:
     flooding, babbling, deaf = hall.enter(), hall.enter(), hall.enter()
+    hall.overheard.garbage.add("?")
     for guest, message, enough, words in (
         (flooding, '{"type": "set_joint_target"}', round(FLOOD), "too fast: more than 5,000"),
         (babbling, "?", MOST_UNREADABLE, "cannot be read"),
         (deaf, '{"type": "get", "id": 1, "what": "gate"}', MOST_ANSWERS, "does not read"),
     ):
         for _ in range(enough):
-            hall.reception.receive(guest, message)
+            hall.send(guest, message)
         with pytest.raises(LeaveError, match=words):
-            hall.reception.receive(guest, message)
+            hall.send(guest, message)
     assert all(each["type"] == "error" for each in hall.told(babbling)[1:])
 
 
@@ -228,11 +308,11 @@ def test_who_asks_for_much_and_reads_nothing_is_sent_away_and_nobody_else(
     asked = {"type": "get", "id": 1, "what": "snapshot"}
     answers = 0
     while not deaf.outbox.is_full:
-        hall.reception.receive(deaf, json.dumps(asked))
+        hall.send(deaf, json.dumps(asked))
         answers += 1
         assert hall.ask(reading, asked)[-1]["type"] == "snapshot"
     with pytest.raises(LeaveError, match="does not read its answers"):
-        hall.reception.receive(deaf, json.dumps(asked))
+        hall.send(deaf, json.dumps(asked))
     assert 2 < answers < MOST_ANSWERS
     assert deaf.outbox._size < 2 * 100_000
     hall.reception.leave(deaf)
@@ -359,9 +439,12 @@ def test_names_of_no_joint_never_reach_the_engine(hall: Hall, count: int) -> Non
     guest = hall.enter()
     hall.told(guest)
     target = {"type": "set_joint_target", "targets": dict.fromkeys(map(str, range(count)), 0.0)}
+    asked = {"type": "do", "id": 1, "command": target}
+    if count > len(JOINT_NAMES):  # more than there can be: the schema says so, too
+        hall.overheard.garbage |= {json.dumps(target), json.dumps(asked)}
     posted = []
     hall.session.post = lambda command, *_: posted.append(command)
-    (error,) = hall.ask(guest, {"type": "do", "id": 1, "command": target})
+    (error,) = hall.ask(guest, asked)
     assert error["id"] == 1
     assert hall.ask(guest, target)[0]["type"] == "error"
     assert posted == []

@@ -1,14 +1,15 @@
-"""What becomes of a line on which something cannot be sent: it is closed, in words, and logged."""
+"""Faults of ours are logged: a line that cannot be sent to is closed, what is due goes on."""
 
 import asyncio
 import logging
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import CancelledError, ThreadPoolExecutor
 from types import SimpleNamespace
 
 import pytest
 from websockets.frames import CloseCode
 
 from studio.engine.remote.server import RemoteServer
+from studio.engine.seat import Seat
 
 
 def test_a_fault_while_sending_closes_the_line_and_is_logged(
@@ -34,3 +35,25 @@ def test_a_fault_while_sending_closes_the_line_and_is_logged(
         other.submit(asyncio.run, send()).result()
     assert closed == [CloseCode.INTERNAL_ERROR]
     assert "cannot be sent" in caplog.text
+
+
+def test_a_look_that_fails_is_logged_once_and_the_next_ones_follow(
+    caplog: pytest.LogCaptureFixture, monkeypatch
+) -> None:
+    monkeypatch.setattr("studio.engine.remote.server._LOOK_EVERY", 0.0)
+    looks: list[int] = []
+
+    def look() -> None:
+        looks.append(len(looks))
+        if len(looks) == 5:
+            raise asyncio.CancelledError  # the end
+        raise OSError("the disk is gone")
+
+    server = RemoteServer(SimpleNamespace(steps=None), Seat())
+    server._reception = SimpleNamespace(look=look)
+    with caplog.at_level(logging.ERROR), ThreadPoolExecutor(1) as other:
+        ended = other.submit(asyncio.run, server._look()).exception()
+    assert isinstance(ended, asyncio.CancelledError | CancelledError)
+    assert len(looks) == 5
+    (record,) = caplog.records
+    assert "the disk is gone" in str(record.exc_info)
