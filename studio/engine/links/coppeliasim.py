@@ -53,6 +53,8 @@ class CoppeliaSim:
         self._client: Any = None
         self._sim: Any = None
         self._handles: dict[str, int] = {}
+        self._commanded: set[str] = set()  # joints, since they were told to hold
+        self._seen: RobotState | None = None  # by `stop`, for the next `read`
         self._due = 0.0  # [s] when it is looked at next
 
     def open(self) -> None:
@@ -66,31 +68,20 @@ class CoppeliaSim:
         _never_late(client.socket, zmq)
         self._sim = self._call(client.require, "sim")
         self._handles = {joint: self._find(joint) for joint in ARMS_JOINTS}
-        self.limits = self._intervals()
+        self.limits, self._commanded, self._seen = self._intervals(), set(), None
         self._due = self._now()
 
     def read(self) -> RobotState | None:
         """Return how it is, once a control period."""
-        if self._now() < self._due:
-            return None
-        self._due = self._now() + CONTROL_PERIOD
-        sim = self._required()
-        self._call(sim.acquireLock)
-        state = int(self._call(sim.getSimulationState))
-        told = {
-            joint: float(self._call(sim.getJointPosition, handle))
-            for joint, handle in self._handles.items()
-        }
-        self._call(sim.releaseLock)
-        paused = "CoppeliaSim's simulation is paused: enabling lets it go on."
-        is_paused = bool(state & PAUSED)
-        return RobotState(
-            positions_of(told), bool(state & ADVANCING), paused if is_paused else "", is_paused
-        )
+        seen, self._seen = self._seen, None
+        if seen is None and self._now() >= self._due:
+            seen = self._look(holds=False)
+        return seen
 
     def send(self, targets: Mapping[str, float]) -> None:
         """Set each joint's target."""
         sim, begun = self._required(), self._now()
+        self._commanded |= targets.keys()
         self._call(sim.acquireLock)
         for joint, angle in targets.items():
             if self._now() - begun > STALE:
@@ -106,6 +97,10 @@ class CoppeliaSim:
         """Pause its simulation: all stands still."""
         self._call(self._required().pauseSimulation)
 
+    def stop(self) -> None:
+        """Make the commanded joints' targets where they are: the last ones would lead them on."""
+        self._seen = self._look(holds=True)  # one exchange for both, so that no state comes late
+
     def set_speed(self, ratio: float) -> None:
         """Nothing to tell: the gatekeeper's own cap is the speed."""
 
@@ -114,6 +109,27 @@ class CoppeliaSim:
         client, self._client, self._sim = self._client, None, None
         if client is not None:
             client.socket.close(linger=0)
+
+    def _look(self, holds: bool) -> RobotState:
+        """Return how it is; ``holds``: and let what was commanded stay there."""
+        self._due = self._now() + CONTROL_PERIOD
+        sim = self._required()
+        self._call(sim.acquireLock)
+        state = int(self._call(sim.getSimulationState))
+        told = {
+            joint: float(self._call(sim.getJointPosition, handle))
+            for joint, handle in self._handles.items()
+        }
+        if holds:
+            for joint in sorted(self._commanded):
+                self._call(sim.setJointTargetPosition, self._handles[joint], told[joint])
+            self._commanded = set()
+        self._call(sim.releaseLock)
+        paused = "CoppeliaSim's simulation is paused: enabling lets it go on."
+        is_paused = bool(state & PAUSED)
+        return RobotState(
+            positions_of(told), bool(state & ADVANCING), paused if is_paused else "", is_paused
+        )
 
     def _find(self, joint: str) -> int:
         paths = paths_of(joint, self._model)

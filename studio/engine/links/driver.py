@@ -2,7 +2,8 @@
 
 Commands go in by a slot of one: the newest wins, each is sent once, and one that has grown old
 is never sent. That is the watchdog: where the studio stalls, or stops commanding, nothing leaves
-any more, and Baxter's own controller holds its position 0.2 s later (its default timeout).
+any more but one word that the robot is to hold still where it is. (Baxter needs none: its own
+controller holds its position 0.2 s after the last command, its default timeout.)
 """
 
 import threading
@@ -51,9 +52,11 @@ class LinkThread:
         self.limits: Mapping[str, Range] = {}
         self.is_open = False
         self.trouble = ""  # why it is not connected, in words
-        self.sent = 0  # commands that left
+        self.sent = 0  # commands that the link was given to send
         self._lock = threading.Lock()
         self._slot: tuple[float, Mapping[str, float]] | None = None
+        self._is_over = False  # commands have ended until the next
+        self._last: float | None = None  # [s] when one left, until the robot was told to hold
         self._orders: deque[tuple[Order, float | None]] = (
             deque()
         )  # [s] since when it may be too late
@@ -66,6 +69,7 @@ class LinkThread:
         with self._lock:
             fits = self.is_open and targets is not None
             self._slot = (self._now(), dict(targets or {})) if fits else None
+            self._is_over = targets is None
         self._news.set()
 
     def order(self, order: Order) -> None:
@@ -77,7 +81,7 @@ class LinkThread:
         self._put_order(lambda link: link.enable(), self._now())
 
     def halt(self) -> None:
-        """Send no targets that wait, and power no motors."""
+        """Send no targets that wait, power no motors, and let the robot hold where it is."""
         with self._lock:
             self._halt()
 
@@ -101,7 +105,7 @@ class LinkThread:
 
     def _halt(self) -> None:
         """Drop what makes the robot move; the lock is held."""
-        self._slot = None
+        self._slot, self._is_over = None, True
         self._orders = deque(each for each in self._orders if each[1] is None)
 
     def _run(self) -> None:
@@ -140,10 +144,15 @@ class LinkThread:
         while (order := self._next_order()) is not None:
             order(self._link)
         with self._lock:
-            waiting, self._slot = self._slot, None
-        if waiting is not None and self._now() - waiting[0] <= STALE and not self._closing.is_set():
+            waiting, self._slot, is_over = self._slot, None, self._is_over
+        now = self._now()
+        if waiting is not None and now - waiting[0] <= STALE and not self._closing.is_set():
+            self._last = now
             self._link.send(waiting[1])
             self.sent += 1
+        elif self._last is not None and (is_over or now - self._last > STALE):
+            self._last = None
+            self._link.stop()
 
     def _next_order(self) -> Order | None:
         """Return the next order that is not too late, one by one: a stop may come between two."""
@@ -156,5 +165,5 @@ class LinkThread:
 
     def _forget(self) -> None:
         with self._lock:
-            self.is_open, self.heard, self._slot = False, None, None
+            self.is_open, self.heard, self._slot, self._last = False, None, None, None
             self._orders.clear()

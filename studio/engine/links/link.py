@@ -8,8 +8,8 @@ The laws of every link, held by `tests/engine/links/`:
    command.
 3. **What is not known is told as not known**: a joint that the robot does not tell is NaN, a
    state that did not come is None, and neither is ever made up from what was commanded.
-4. **A link that is lost says so** by `LinkError`, and never sends again what it could not send:
-   whoever opens it anew begins with nothing.
+4. **A link that is lost says so** by `LinkError`, and never sends again what it could not send,
+   nor leaves it to anybody who might: whoever opens it anew begins with nothing.
 5. **A link may block**; so only its own thread calls it (`driver.LinkThread`), never a tick.
 """
 
@@ -82,6 +82,13 @@ class RobotLink(Protocol):
 
     def disable(self) -> None:
         """Ask it to take the power off its motors, at once."""
+        ...
+
+    def stop(self) -> None:
+        """Hold still where it is, its motors powered: commands have ended, maybe in mid-motion.
+
+        It goes once behind the last command, and is nothing that a robot has to be enabled for.
+        """
         ...
 
     def set_speed(self, ratio: float) -> None:

@@ -59,7 +59,8 @@ class Linked:
                 return "The robot is let alone."
             case commands.SetLinkSpeed(ratio):
                 self._memory = consent.at_ratio(self._memory, ratio)
-                self._tell_speed()
+                if self._memory.phase not in (Phase.OFF, Phase.ENABLING):
+                    self._tell_speed()  # it is told as soon as it is enabled, otherwise
                 return f"The robot goes at {100 * ratio:.0f} % of its top speed."
             case commands.EnableLink() | commands.StartLink():
                 return self._begin(command)

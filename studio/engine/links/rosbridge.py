@@ -3,12 +3,16 @@
 roslibpy (the extra "ros") speaks the rosbridge v2 protocol. It runs on asyncio here, not on
 twisted, whose reactor cannot be started twice in a process; and it does not connect again by
 itself: a connection that comes back is for people to enable anew.
+
+One command is on its way at most: the next is sent once that one has been read. Where the robot's
+side reads no more, the link is lost as soon as a state would be stale (`receipts.Receipts`).
 """
 
 import logging
 import math
 import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,6 +30,7 @@ from studio.engine.links.baxter_messages import (
 )
 from studio.engine.links.driver import STALE
 from studio.engine.links.link import LinkError, Range, RobotState, positions_of
+from studio.engine.links.receipts import Receipts
 from studio.engine.skeleton import SIDES
 
 _CONNECTS_WITHIN, _CLOSES_WITHIN = 3.0, 1.0  # [s]
@@ -62,6 +67,7 @@ class Rosbridge:
         self.url, self._host, self._port, self._now = url, host, port, now
         self._lock, self._heard = threading.Lock(), _Heard({})
         self._ros: Any = None
+        self._receipts: Receipts | None = None
         self._topics: dict[str, Any] = {}
 
     def open(self) -> None:
@@ -78,7 +84,7 @@ class Rosbridge:
                 f"{self.url}: no rosbridge answers there: on the robot's network run "
                 "`roslaunch rosbridge_server rosbridge_websocket.launch`"
             ) from None
-        ros.factory.on_ready(_cap)
+        ros.factory.on_ready(self._connected)
         for (name, kind), hear in ((JOINT_STATES, self._joints), (ROBOT_STATE, self._state)):
             topic = roslibpy.Topic(
                 ros, name, kind, throttle_rate=_THROTTLE, queue_length=1, reconnect_on_close=False
@@ -111,49 +117,69 @@ class Rosbridge:
         )
 
     def send(self, targets: Mapping[str, float]) -> None:
-        """Send each limb that is wholly among ``targets`` its command."""
-        for side in SIDES:
-            command = joint_command(side, targets)
-            if command is not None:
-                self._publish(command_topic(side)[0], command)
+        """Send each limb that is wholly among ``targets`` its command, or none while one waits."""
+        if not self._require().is_waiting:
+            commands = {command_topic(side)[0]: joint_command(side, targets) for side in SIDES}
+            self._publish({topic: told for topic, told in commands.items() if told is not None})
 
     def enable(self) -> None:
         """Reset a stop that is released, and ask for power."""
         with self._lock:
             known = self._heard.assembly
         if known is not None and known.resets:
-            self._publish(RESET[0], {})
-        self._publish(ENABLE[0], {"data": True})
+            self._publish({RESET[0]: {}})
+        self._publish({ENABLE[0]: {"data": True}})
 
     def disable(self) -> None:
         """Ask to take the power off."""
-        self._publish(ENABLE[0], {"data": False})
+        self._publish({ENABLE[0]: {"data": False}})
+
+    def stop(self) -> None:
+        """Nothing to tell: Baxter holds still by itself where no command comes."""
 
     def set_speed(self, ratio: float) -> None:
         """Tell both limbs."""
-        for side in SIDES:
-            self._publish(speed_topic(side)[0], {"data": ratio})
+        self._publish({speed_topic(side)[0]: {"data": ratio} for side in SIDES})
 
     def close(self) -> None:
         """End the connection; Baxter holds still where it is."""
         ros, self._ros, self._topics = self._ros, None, {}
+        receipts, self._receipts = self._receipts, None
         if ros is None:
             return
-        try:
-            if ros.is_connected:
+        if not ros.is_connected:
+            ros.on_ready(ros.close)  # should it connect so late, then only to be closed
+        elif receipts is None or receipts.come():
+            with suppress(TimeoutError):
                 ros.close(timeout=_CLOSES_WITHIN)
-            else:
-                ros.on_ready(ros.close)  # should it connect so late, then only to be closed
-        except TimeoutError:
-            pass
+        else:
+            receipts.abort()
 
-    def _publish(self, topic: str, message: dict[str, object]) -> None:
-        self._require()
-        self._topics[topic].publish(message)
+    def _connected(self, protocol: Any) -> None:
+        """Let a connection end itself over a message that no robot sends, and ask for receipts."""
+        protocol.maxMessagePayloadSize = _LARGEST
+        self._receipts = Receipts(protocol, self._now)
 
-    def _require(self) -> None:
-        if self._ros is None or not self._ros.is_connected:
+    def _publish(self, messages: dict[str, dict[str, object]]) -> None:
+        """Send messages by their topics."""
+        receipts = self._require()
+        pairs = [(self._topics[topic], message) for topic, message in messages.items()]
+
+        def publish() -> None:
+            for topic, message in pairs:
+                topic.publish(message)
+
+        receipts.send(publish)
+
+    def _require(self) -> Receipts:
+        if self._ros is None or self._receipts is None or not self._ros.is_connected:
             raise LinkError(f"{self.url}: rosbridge has ended the connection")
+        if self._receipts.is_late:
+            raise LinkError(
+                f"{self.url}: rosbridge does not read what is sent to it. Where the robot has to "
+                "lose its power now, use its emergency stop"
+            )
+        return self._receipts
 
     def _joints(self, message: object) -> None:
         """Take joints, on the network's thread; a message without any of ours is no news."""
@@ -170,11 +196,6 @@ class Rosbridge:
         if found is not None:
             with self._lock:
                 self._heard.assembly, self._heard.news_of_assembly = found, True
-
-
-def _cap(protocol: Any) -> None:
-    """Let a connection end itself over a message that no robot sends."""
-    protocol.maxMessagePayloadSize = _LARGEST
 
 
 def _library() -> tuple[Any, Any]:

@@ -1,8 +1,8 @@
 """A robot that is a world of its own, on its link's thread: to try everything without a robot.
 
 It obeys as Baxter does: whoever enables it powers its motors, a stop holds it, and where no
-command has come for 0.2 s it holds still where it is. So does the studio's own world implement
-the protocol.
+command has come for 0.2 s it holds still where it is. It is the world that implements `RobotLink`:
+a second one, for the one on the page is the session's, which sends it nothing through a link.
 """
 
 from collections.abc import Callable, Mapping
@@ -73,6 +73,10 @@ class SimulatedRobot:
         """Let it hold still: a simulated arm without power would fall."""
         self._hold()
         self._enabled = False
+
+    def stop(self) -> None:
+        """Hold still where it is."""
+        self._hold()
 
     def set_speed(self, ratio: float) -> None:
         """Nothing to tell: the gatekeeper's own cap is the speed."""

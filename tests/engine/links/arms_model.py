@@ -38,7 +38,15 @@ class ArmsModel:
             self.commands.append((self._now(), targets))
             self.targets |= targets
             for joint, angle in targets.items():
+                if angle == self.positions[joint]:  # it stands, whichever way it turns
+                    self._origin[joint] = (angle, angle)
                 self._origin.setdefault(joint, (angle, self.positions[joint]))
+
+    def lead(self, positions: dict[str, float]) -> None:
+        """Be led there by somebody, while nothing is commanded."""
+        with self.lock:
+            self.positions |= positions
+            self.targets, self._origin = {}, {}
 
     def pass_time(self) -> None:
         """Move on to this moment, no faster than the motors turn."""

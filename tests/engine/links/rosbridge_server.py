@@ -8,6 +8,7 @@ std_msgs. It is stricter than the real one: whatever does not fit is kept in ``c
 import contextlib
 import json
 import math
+import socket
 import threading
 import time
 from collections.abc import Callable
@@ -38,6 +39,21 @@ FIELDS = {
 OTHERS = {"head_pan": 0.1, "torso_t0": 0.0, "l_gripper_l_finger_joint": 0.02, "head_nod": 0.0}
 
 
+class Ear:
+    """A connection's socket, from which nothing is read while the server is deaf."""
+
+    def __init__(self, connection: socket.socket, hears: threading.Event) -> None:
+        self._connection, self._hears = connection, hears
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._connection, name)
+
+    def recv(self, size: int) -> bytes:
+        found = self._connection.recv(size)
+        self._hears.wait()
+        return found
+
+
 class RosbridgeServer:
     """A context manager; `arms` is the robot, the rest is what may go wrong with it."""
 
@@ -51,6 +67,8 @@ class RosbridgeServer:
         self.changed: Callable[[str], str] = lambda text: text  # the last word on what it sends
         self.delay = 0.0  # [s] by which joint states come late
         self.silent = False
+        self._hears = threading.Event()
+        self._hears.set()
         self.complaints: list[str] = []
         self.heard: list[dict] = []
         self._port, self._queue = 0, []
@@ -84,8 +102,16 @@ class RosbridgeServer:
     def power_off(self) -> None:
         self.arms.powered = False
 
+    def deafen(self) -> None:
+        """Read nothing any more, and go on to tell."""
+        self._hears.clear()
+
+    def hear_again(self) -> None:
+        self._hears.set()
+
     def kill(self) -> None:
         self._closing.set()
+        self._hears.set()
         self._server.shutdown()
         for connection in list(self._connections):
             connection.socket.close()
@@ -100,6 +126,7 @@ class RosbridgeServer:
                 connection.send(text)
 
     def _hear(self, connection: ServerConnection) -> None:
+        connection.socket = Ear(connection.socket, self._hears)
         self._connections[connection] = set()
         advertised: set[str] = set()
         try:

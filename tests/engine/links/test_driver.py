@@ -47,6 +47,9 @@ class Bench:
     def disable(self) -> None:
         self.told.append("disable")
 
+    def stop(self) -> None:
+        self.told.append("stop")
+
     def set_speed(self, ratio: float) -> None:
         raise OSError("the network is gone")
 
@@ -167,7 +170,7 @@ def test_orders_that_wait_at_the_end_are_done_and_targets_are_not(
     thread.end()
     bench.free.set()
     thread.close()
-    assert (bench.told, bench.sent) == (["disable"], [{"left_s0": 0.1}])
+    assert (bench.told, bench.sent) == (["disable", "stop"], [{"left_s0": 0.1}])
 
 
 @pytest.mark.parametrize("ends", ["halted", "late"])
@@ -185,9 +188,43 @@ def test_no_motor_is_powered_after_a_stop_or_late(
         clock.time += STALE + 0.01
     bench.free.set()
     eventually(lambda: bench.told)
-    assert bench.told == ["asked later"]
+    assert bench.told[0] == "asked later"
+    eventually(lambda: bench.told[1:] == ["stop"])
 
 
 def test_motors_are_powered_when_asked_in_time(bench: Bench, thread: LinkThread) -> None:
     thread.enable()
     eventually(lambda: bench.told == ["enable"])
+
+
+@pytest.mark.parametrize("how", ["nothing more", "halted", "stalled"])
+def test_a_robot_is_told_once_where_commands_end(
+    bench: Bench, thread: LinkThread, clock: Clock, how: str
+) -> None:
+    thread.put({"left_s0": 0.1})
+    eventually(lambda: thread.sent == 1)
+    time.sleep(0.02)
+    assert bench.told == []
+    if how == "stalled":
+        clock.time += STALE + 0.01
+    else:
+        thread.halt() if how == "halted" else thread.put(None)
+    eventually(lambda: bench.told == ["stop"])
+    thread.put(None)
+    clock.time += STALE + 0.01
+    time.sleep(0.02)
+    assert bench.told == ["stop"]
+    thread.put({"left_s0": 0.2})
+    eventually(lambda: thread.sent == 2)
+    thread.put(None)
+    eventually(lambda: bench.told == ["stop", "stop"])
+
+
+def test_a_robot_to_which_nothing_was_sent_is_not_told_to_hold(
+    bench: Bench, thread: LinkThread, clock: Clock
+) -> None:
+    thread.put(None)
+    thread.halt()
+    clock.time += STALE + 0.01
+    time.sleep(0.02)
+    assert bench.told == []

@@ -328,3 +328,19 @@ def test_no_robot_goes_where_a_program_drives_the_page_s(desk: Desk) -> None:
     desk.do(commands.Stop())
     desk.do(commands.EnableLink())
     assert desk.do(commands.StartLink(confirmed=True)).link.phase is Phase.STARTING
+
+
+def test_no_speed_is_told_before_the_robot_is_enabled(desk: Desk) -> None:
+    """Nothing leaves; it is told with its share as soon as it is enabled."""
+    desk.do(commands.ConnectLink("simulated://"))
+    desk.do(commands.SetLinkSpeed(0.7))
+    assert Direct.newest.ratio == 0.0
+    desk.do()
+    desk.do(commands.EnableLink(), commands.SetLinkSpeed(0.6))
+    assert (desk.do().link.phase, Direct.newest.ratio) == (Phase.WAITING, 0.6)
+    desk.do(commands.SetLinkSpeed(0.5))
+    assert Direct.newest.ratio == 0.5
+    desk.do(commands.StopLink(), commands.SetLinkSpeed(0.4))
+    assert Direct.newest.ratio == 0.5
+    desk.do(commands.EnableLink())
+    assert (desk.do().link.phase, Direct.newest.ratio) == (Phase.WAITING, 0.4)

@@ -101,6 +101,24 @@ def test_watchdog_disarming_ends_commands(robot: StandIn, rig: LiveRig) -> None:
     assert rig.phase is Phase.READY
 
 
+def test_a_robot_that_is_behind_holds_where_it_is_when_commands_end(robot, rig: LiveRig) -> None:
+    """Whatever was commanded last leads it no further."""
+    rig.started()
+    rig.permitted, robot.arms.ratio = True, 0.0
+    for _ in range(6):
+        rig.move("left_s0", 0.01)
+        rig.tick()
+    rig.permitted = False
+    rig.tick()
+    rig.settle()
+    CLOCK.sleep(STALE * HASTE)  # in which a Baxter's own controller gives up
+    stood, robot.arms.ratio = robot.arms.positions["left_s0"], 1.0
+    CLOCK.sleep(STALE)
+    assert robot.arms.positions["left_s0"] == pytest.approx(stood, abs=0.002)
+    rig.permitted = True
+    rig.until(lambda: robot.arms.positions["left_s0"] > stood + 0.03)  # it was told to go there
+
+
 def fallen(robot: StandIn, rig: LiveRig, words: str) -> None:
     """It has ended, in words, and nothing follows by itself."""
     rig.until(lambda: rig.phase is Phase.OFF)

@@ -19,7 +19,7 @@ from studio.engine.links.rosbridge import Rosbridge
 from studio.engine.links.status import Phase
 from tests.engine.links.rig import HASTE, LiveRig
 from tests.engine.links.rosbridge_server import OTHERS, TYPES, RosbridgeServer
-from tests.engine.links.unhurried import CLOCK
+from tests.engine.links.unhurried import CLOCK, eventually
 
 
 @pytest.fixture
@@ -200,3 +200,50 @@ def test_closing_leaves_no_thread_of_ours(robot: RosbridgeServer) -> None:
     with LiveRig(link_at(robot.url, CLOCK)) as rig:
         rig.heard()
     assert not [each for each in threading.enumerate() if each.name == "robot link"]
+
+
+def arrived(robot: RosbridgeServer) -> list[dict]:
+    return [each for each in robot.heard if each.get("topic", "").startswith("/robot/")]
+
+
+def deaf_in_mid_motion(robot: RosbridgeServer, rig: LiveRig) -> int:
+    """The robot's side reads no more, and goes on to tell; return how much it had read."""
+    rig.moving()
+    rig.settle()
+    before = len(arrived(robot))
+    robot.deafen()
+    for _ in range(3):
+        rig.move("left_s0", 0.001)
+        rig.tick()
+    return before
+
+
+def test_a_robot_s_side_that_reads_no_more_is_sent_nothing_old(robot, rig: LiveRig) -> None:
+    before = deaf_in_mid_motion(robot, rig)
+    rig.until(lambda: rig.phase is Phase.OFF)
+    assert "does not read" in rig.why
+    rig.until(lambda: not rig.thread.is_open)
+    CLOCK.sleep(STALE)
+    robot.hear_again()
+    rig.until(lambda: rig.seen.state is not None and rig.seen.age < STALE)  # connected anew
+    rig.settle()
+    late = [each for each in arrived(robot)[before:] if each["op"] == "publish"]
+    assert len(late) <= 1  # the one that was on its way: who has it in hand keeps it
+    assert rig.phase is Phase.OFF
+    rig.started()
+
+
+def test_a_connection_that_is_let_alone_in_mid_motion_flushes_nothing(robot, rig) -> None:
+    before = deaf_in_mid_motion(robot, rig)
+    rig.thread.close()
+    assert not rig.thread._thread.is_alive()
+    robot.hear_again()
+    CLOCK.sleep(STALE)
+    assert len([each for each in arrived(robot)[before:] if each["op"] == "publish"]) <= 1
+
+
+def test_what_is_ordered_at_the_end_is_read_before_the_end(robot, rig: LiveRig) -> None:
+    rig.moving()
+    rig.thread.order(lambda link: link.disable())
+    rig.thread.close()
+    eventually(lambda: not robot.arms.powered)

@@ -52,6 +52,16 @@ def test_it_obeys_only_with_power_and_holds_without_commands(link, clock: Clock)
     assert pass_time(link, clock, 0.5, left_s0=-0.5)[0] == pytest.approx(held, abs=0.01)
 
 
+def test_told_to_hold_it_does_so_at_once(link, clock: Clock) -> None:
+    link.enable()
+    moving = pass_time(link, clock, 0.1, left_s0=1.5)[0]
+    link.stop()
+    held = pass_time(link, clock, 0.5)[0]
+    assert held == pytest.approx(moving, abs=0.12)  # a motor's way to a halt
+    assert pass_time(link, clock, 1.0)[0] == pytest.approx(held, abs=0.01)
+    assert pass_time(link, clock, 1.5, left_s0=1.5)[0] > held + 0.3
+
+
 def test_its_time_is_the_clock_s_but_for_long_pauses(link, clock: Clock) -> None:
     assert link.read() is not None
     assert link.read() is None

@@ -18,7 +18,7 @@ class Unhurried:
     """See the module; called, it returns its time [s]."""
 
     def __init__(self) -> None:
-        self._time = 100.0
+        self._time, self._stands = 100.0, False
 
     def __call__(self) -> float:
         return self._time
@@ -27,6 +27,15 @@ class Unhurried:
         """Wait until so much of its time has passed."""
         due = self._time + seconds
         eventually(lambda: self._time >= due)
+
+    @contextmanager
+    def standing(self) -> Iterator[None]:
+        """Let no time pass, while the test's own thread has much to do."""
+        self._stands = True
+        try:
+            yield
+        finally:
+            self._stands = False
 
     @contextmanager
     def running(self) -> Iterator[None]:
@@ -42,7 +51,7 @@ class Unhurried:
         while not closing.is_set():
             time.sleep(STEP)
             now = time.monotonic()
-            self._time += min(now - before, STEP)
+            self._time += 0.0 if self._stands else min(now - before, STEP)
             before = now
 
 
