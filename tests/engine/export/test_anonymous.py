@@ -18,6 +18,7 @@ from studio.engine.recording import Recording
 from studio.engine.teaching import learn, reproduce
 from studio.panels.replay_page import replay_page
 from tests.engine.export.materials import done
+from tests.panels.conftest import mesh_folder  # noqa: F401 - not the user's own cache
 
 SECRETS = ("Zebedee", "zanzibar-7", "xylophone", "body-quux", "wolfgang")
 KINDS = ("csv", "npz", "mcap", "model", "html", "zip")
