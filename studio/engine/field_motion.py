@@ -23,6 +23,8 @@ from studio.rbf import PlainField, StableField
 STEPS = 568  # in a demonstration's duration, between points of a path: four a sample of the 142
 ARRIVED = 0.02  # of a leg's reach: so near its goal, the next leg begins
 RETURNS = 0.25  # of the reach: a motion that ends nearer than this to its turning point stays there
+ITERATIONS = 300  # of the refinement of a field's map, up to 60 neurons
+REFINED = 18_000  # neurons times iterations: more neurons get fewer, as somebody waits for them
 LONGEST = 4  # times the demonstrated duration, after which a leg ends wherever it is
 Demonstrations = Sequence[tuple[FloatArray, FloatArray]]  # times (T,) and joints (T, D) [rad]
 
@@ -38,11 +40,14 @@ class PushAndReturn:
         """Learn joints (n, D) [rad] from demonstrations one after another, X (n,) their times."""
         taught = split_where_time_restarts(X, Y)
         legs = legs_of(taught)
+        iterations = max(1, min(ITERATIONS, REFINED // self.neurons))
         try:
             with warnings.catch_warnings():  # how far it misses is in the remark
                 warnings.simplefilter("ignore", UserWarning)
                 self.fields = tuple(
-                    StableField(n_translations=self.neurons, bound=self.bound).fit(leg)
+                    StableField(
+                        n_translations=self.neurons, bound=self.bound, max_iterations=iterations
+                    ).fit(leg)
                     for leg in legs
                 )
         except ValueError as error:

@@ -92,9 +92,9 @@ def question(
 
 
 def _wait(learning: LearningStatus) -> str:
-    """Return how long a trial takes: 0.3 to 1.4 s of a processor, but 2.5 to 21 s for a field."""
+    """Return how long a trial takes: a quarter of a second, but 0.5 to 2.5 s for a stable field."""
     if learning.chosen.name == "field":  # which is matched to the motion step by step
-        return "which takes a stable field some seconds, with hundreds of neurons many"
+        return "which takes a stable field one to three seconds"
     return "in about a second"
 
 

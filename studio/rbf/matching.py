@@ -20,6 +20,7 @@ FIRST_WIDTHS = np.geomspace(0.05, 2.4, 12)  # [reach] what the greedy search tri
 GREEDY_STRIDE = 2  # it looks at every second point of a path: enough to begin with
 GREEDY_SHARES = (0.95, 0.8, 0.6, 0.4, 0.25)  # [bound] below 1: its squashed shift is infinite
 MOST_CANDIDATES = 200  # for a center, however many demonstrations there are
+LONGEST_TRIED = 30  # translations: those that come first in a chain decide how it unrolls
 TRIAL = 60  # iterations until a first chain shows what it is good for
 GOAL_WEIGHT = 5.0  # of the goal in the greedy search, where all paths meet
 MEMORY = 20  # pairs that L-BFGS remembers
@@ -42,15 +43,21 @@ def match(lesson: Lesson, count: int, bound: float, smoothness: float, iteration
     The first chain decides on which side of each other the parts of a path are unrolled, and no
     refinement changes that: so a few are tried, and the most promising one is finished.
     """
-    objective = Objective(lesson, count, bound, smoothness)
+    first = min(count, LONGEST_TRIED)
+    objective = Objective(lesson, first, bound, smoothness)
     trials = [
         _refined(
-            objective, objective.packed(grow(lesson, count, share * bound), lesson.starts), TRIAL
+            objective, objective.packed(grow(lesson, first, share * bound), lesson.starts), TRIAL
         )
         for share in GREEDY_SHARES
     ]
-    best = min(trials, key=lambda trial: trial[0])[1]
-    numbers = _refined(objective, best, iterations)[1]
+    numbers = min(trials, key=lambda trial: trial[0])[1]
+    if count > first:
+        chain, starts = objective.unpacked(numbers)
+        chain = _longer(chain, starts, lesson, count - first, GREEDY_SHARES[0] * bound)
+        objective = Objective(lesson, count, bound, smoothness)
+        numbers = objective.packed(chain, starts)
+    numbers = _refined(objective, numbers, iterations)[1]
     chain, starts = objective.unpacked(numbers)
     lines = lesson.remaining[:, np.newaxis] * starts[:, np.newaxis]
     bent = chain.forward(lines.reshape(-1, starts.shape[1])) - chain.forward(
@@ -74,22 +81,31 @@ def _refined(
 
 
 def grow(lesson: Lesson, count: int, bound: float) -> Diffeomorphism:
-    """Return a first chain, each translation the best one for what the others left over.
+    """Return a first chain, each translation the best one for what the others left over."""
+    dimension = lesson.paths.shape[2]
+    nothing = Diffeomorphism(np.empty((0, dimension)), np.empty((0, dimension)), np.empty(0))
+    return _longer(nothing, lesson.starts, lesson, count, bound)
 
-    It sits on a point of the bent lines, its width is one of `FIRST_WIDTHS`, its shift solves the
+
+def _longer(
+    chain: Diffeomorphism, starts: FloatArray, lesson: Lesson, count: int, bound: float
+) -> Diffeomorphism:
+    """Return a chain with ``count`` translations more for lines from starts (K, d).
+
+    Each sits on a point of the bent lines, its width is one of `FIRST_WIDTHS`, its shift solves the
     least squares problem that remains, shortened to the bound.
     """
     picked = slice(None, None, -GREEDY_STRIDE)  # from the goal, so that this one is among them
     dimension = lesson.paths.shape[2]
     remaining = lesson.remaining[picked, np.newaxis]
-    targets = lesson.paths[:, picked].reshape(-1, dimension)
-    points = (remaining * lesson.paths[:, np.newaxis, 0]).reshape(-1, dimension)
+    goal = chain.forward(np.zeros((1, dimension)))  # the paths are relative to where it is now
+    targets = lesson.paths[:, picked].reshape(-1, dimension) + goal
+    points = chain.forward((remaining * starts[:, np.newaxis]).reshape(-1, dimension))
     weights = np.tile(np.where(remaining[:, 0] == 0.0, GOAL_WEIGHT, 1.0), len(lesson.paths))
-    links = []
+    links = [chain]
     for _ in range(count):
-        link = _best_translation(points, targets - points, weights, bound)
-        points = link.forward(points)
-        links.append(link)
+        links.append(_best_translation(points, targets - points, weights, bound))
+        points = links[-1].forward(points)
     return Diffeomorphism(
         np.concatenate([link.centers for link in links]),
         np.concatenate([link.shifts for link in links]),

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from studio.rbf.lessons import lesson_from
-from studio.rbf.matching import grow, match
+from studio.rbf.matching import LONGEST_TRIED, grow, match
 from studio.rbf.refinement import Objective
 from studio.rbf.trajectories import read_demonstrations
 from tests.rbf.shapes import bent_reach
@@ -52,3 +52,11 @@ def test_refinement_and_more_translations_bring_the_paths_closer():
     untouched = np.sqrt(np.square(bent - taught.paths).sum(axis=2).mean())
     assert fine < 0.5 * coarse
     assert fine < 0.8 * untouched  # what is left is how the paths differ
+
+
+def test_a_chain_longer_than_those_tried_is_no_worse_than_they_are():
+    taught = lesson(2)
+    tried, longer = (match(taught, LONGEST_TRIED + more, 0.8, 3e-5, 40) for more in (0, 15))
+    assert len(longer.chain.widths) == LONGEST_TRIED + 15
+    assert longer.chain.steepness.max() <= 0.8
+    assert longer.error <= 1.02 * tried.error
