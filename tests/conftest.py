@@ -4,6 +4,8 @@ import os
 
 # Several test processes share few cores: threads of linear algebra would only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# A hundred programs are started: without this each would compile the whole project for itself.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def pytest_xdist_auto_num_workers() -> int | None:

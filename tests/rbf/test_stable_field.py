@@ -38,7 +38,13 @@ def test_velocity_and_rollout_are_two_roads_to_one_path(field, demonstrations):
     for start in (demonstrations[0][1][0], np.array([4.0, -3.0])):
         times = np.linspace(0.0, 2.0, 41)
         solved = solve_ivp(
-            lambda _, x: field.velocity(x), (0.0, 2.0), start, t_eval=times, rtol=1e-9, atol=1e-11
+            lambda _, x: field.velocity(x),
+            (0.0, 2.0),
+            start,
+            method="DOP853",
+            t_eval=times,
+            rtol=1e-8,
+            atol=1e-10,
         )
         np.testing.assert_allclose(field.rollout(start, 0.05, 40), solved.y.T, atol=2e-3)
         fine = field.rollout(start, 0.005, 400)[::10]

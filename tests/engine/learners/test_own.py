@@ -17,8 +17,9 @@ def test_all_learners_have_the_same_budget_and_unlike_settings():
 
 @pytest.mark.parametrize("kind", OWN, ids=lambda kind: kind.name)
 def test_every_setting_of_our_own_learners_answers(kind):
-    rows = samples().rows[:2]  # of fields the slower, the more there are
-    for settings in kind.settings:
+    rows = samples().rows[:2]
+    some = 11 if kind.name == "field" else 1  # of fields, half a second each, the two extremes
+    for settings in kind.settings[::some]:
         curve = kind.model(settings).fit(*stacked(rows)).predict(INPUTS)
         assert curve.shape == (142, 4)
         assert np.isfinite(curve).all()
