@@ -1,19 +1,15 @@
 """The page's weight, its time to the robot, a frame's price: writes its table into docs/page.md.
 
-Run it by ``python tests/bench/bench_page.py``; it takes some five minutes, and needs Chromium. All
+Run it by ``python tests/bench/bench_page.py``; it takes some ten minutes, and needs Chromium. All
 figures are ratios to a minimal viser script of the same run, which adds the same Baxter by
-`viser.extras.ViserUrdf`; it is the function `minimal` below.
+`viser.extras.ViserUrdf`; it is the function `minimal` of `page_programs`.
 """
 
 import argparse
-import base64
 import io
-import math
 import os
 import re
 import shutil
-import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
@@ -24,166 +20,37 @@ from pathlib import Path
 
 import numpy as np
 import viser
-import yourdfpy
 from PIL import Image
 from playwright.sync_api import Browser, Page, sync_playwright
 from viser.extras import ViserUrdf
 
 from studio.engine import commands
-from studio.engine.clock import LiveLoop
-from studio.engine.robot import BASE_HEIGHT, description_folder, load_robot
+from studio.engine.robot import load_robot
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode, Snapshot
 from studio.engine.teaching import LearnerSettings
-from studio.panels.app import App
 from studio.panels.arcs import ArcsView
 from studio.panels.handles import Handles
 from studio.panels.meshes import FINE
-from studio.panels.robot_view import RobotView
 from studio.panels.scene import SceneView
+from tests.bench.page_programs import (
+    CAMERA,
+    GHOST,
+    NEURONS,
+    PLAYHEAD,
+    ROOT,
+    light,
+    minimal,
+    served,
+    upstream,
+)
+from tests.bench.page_visits import MIDDLE, PATIENCE, SIZE, Visit, red_pixels, reload, visit
 from tests.browser.conftest import FLAGS, NAMES
 
-ROOT = Path(__file__).resolve().parents[2]
 PAGE, PICTURE = ROOT / "docs" / "page.md", ROOT / "docs" / "page.png"
-SIZE = {"width": 1366, "height": 768}
-MIDDLE = {"x": 390, "y": 120, "width": 630, "height": 560}  # the scene, clear of all panels
-CAMERA = (3.6, 0.75, 1.95), (0.25, -0.34, 0.84)  # [m] where from and where to, the studio's own
 VIEWS = (CAMERA, ((1.5, 1.6, 1.9), (0.2, 0.1, 0.95)), ((-2.2, -1.6, 1.6), (0.0, 0.0, 0.8)))
-RED = 60  # by how much a red pixel is redder than it is green: only Baxter is
-PATIENCE = 90.0  # [s]
 KINDS = ("minimal", "studio")
 VISITS = 5  # of which the median counts, unless others are asked for
-
-
-def minimal(camera: tuple[tuple[float, ...], ...] = CAMERA) -> viser.ViserServer:
-    """The yardstick: all that a viser user writes to show Baxter."""
-    server = viser.ViserServer("127.0.0.1", 0, verbose=False)
-    server.initial_camera.position, server.initial_camera.look_at = camera
-    server.initial_camera.fov = math.radians(43.0)
-    server.scene.add_frame("/robot", show_axes=False, position=(0.0, 0.0, BASE_HEIGHT))
-    robot = ViserUrdf(server, upstream(), root_node_name="/robot")
-    robot.update_cfg(np.zeros(len(robot.get_actuated_joint_names())))
-    return server
-
-
-def light(camera: tuple[tuple[float, ...], ...] = CAMERA) -> viser.ViserServer:
-    """The same with the studio's robot: for the pictures, as everything else is alike."""
-    server = viser.ViserServer("127.0.0.1", 0, verbose=False)
-    server.initial_camera.position, server.initial_camera.look_at = camera
-    server.initial_camera.fov = math.radians(43.0)
-    RobotView(server.scene, FINE)
-    return server
-
-
-def upstream() -> yourdfpy.URDF:
-    folder = description_folder()
-    assert folder is not None, "pip install example-robot-data"
-    share = folder.parents[2]
-    return yourdfpy.URDF.load(
-        str(folder / "urdf" / "baxter.urdf"),
-        filename_handler=lambda fname: str(share / fname.removeprefix("package://")),
-    )
-
-
-def serve(what: str) -> None:
-    """Serve one of the pages, say where, and go on until standard input ends."""
-    if what == "studio":
-        with (
-            tempfile.TemporaryDirectory() as folder,
-            LiveLoop(lambda: Session(Path(folder))) as loop,
-            App(loop) as app,
-        ):
-            app.scene.wait()
-            print(app.url, flush=True)
-            sys.stdin.read()
-        return
-    server = {"minimal": minimal, "light": light}[what]()
-    print(f"http://127.0.0.1:{server.get_port()}", flush=True)
-    sys.stdin.read()
-
-
-@contextmanager
-def served(what: str, cache: Path) -> Iterator[tuple[str, float]]:
-    """Start a page's program; yield the address and how long it took to have all ready [s]."""
-    start = time.perf_counter()
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(cache)}
-    program = subprocess.Popen(
-        [sys.executable, __file__, "--serve", what],
-        env=environment,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        url = next(line for line in program.stdout if line.startswith("http")).strip()
-        yield url, time.perf_counter() - start
-    finally:
-        program.stdin.close()
-        program.wait(20.0)
-
-
-@dataclass(frozen=True)
-class Visit:
-    """What it took until the robot was on the screen."""
-
-    socket: int  # [bytes] over the websocket
-    page: int  # [bytes] all that was loaded, the websocket included
-    seconds: float
-
-
-def visit(browser: Browser, url: str) -> Visit:
-    """Open a page in a fresh browser profile, and watch what it shows until the robot stands."""
-    context = browser.new_context(viewport=SIZE)
-    page = context.new_page()
-    wire = context.new_cdp_session(page)
-    wire.send("Network.enable")
-    loaded: list[tuple[float, int]] = []
-    heard: list[tuple[float, int]] = []
-    shown: list[tuple[float, int]] = []  # when each picture was drawn, and its red pixels
-
-    def see(event: dict) -> None:
-        wire.send("Page.screencastFrameAck", {"sessionId": event["sessionId"]})
-        picture = red_pixels(base64.b64decode(event["data"]), MIDDLE)
-        shown.append((event["metadata"]["timestamp"], picture))
-
-    wire.on(
-        "Network.loadingFinished", lambda e: loaded.append((time.time(), e["encodedDataLength"]))
-    )
-    wire.on("Page.screencastFrame", see)
-    page.on(
-        "websocket",
-        lambda socket: socket.on(
-            "framereceived", lambda data: heard.append((time.time(), len(data)))
-        ),
-    )
-    wire.send("Page.startScreencast", {"format": "png"})
-    start = time.time()
-    page.goto(url)
-    while time.time() - start < PATIENCE and not stands(shown):
-        page.wait_for_timeout(100)
-    context.close()
-    seen = next(at for at, count in shown if count >= 0.5 * shown[-1][1] > 0)
-    socket = sum(size for at, size in heard if at <= seen)
-    other = sum(int(size) for at, size in loaded if at <= seen)
-    return Visit(socket, socket + other, seen - start)
-
-
-def stands(shown: list[tuple[float, int]]) -> bool:
-    """Whether the last pictures show the same robot, for some seconds."""
-    if len(shown) < 3 or shown[-1][1] < 1000:
-        return False
-    lately = [count for at, count in shown if at > shown[-1][0] - 4.0]
-    enough = shown[-1][0] - shown[0][0] > 4.0 and len(lately) >= 3
-    return enough and max(lately) - min(lately) <= 0.02 * max(lately)
-
-
-def red_pixels(png: bytes, clip: dict[str, int] | None = None) -> int:
-    picture = Image.open(io.BytesIO(png)).convert("RGB")
-    if clip:
-        left, top = clip["x"], clip["y"]
-        picture = picture.crop((left, top, left + clip["width"], top + clip["height"]))
-    pixels = np.asarray(picture, np.int64)
-    return int(np.sum(pixels[..., 0] - pixels[..., 1] > RED))
 
 
 @dataclass(frozen=True)
@@ -226,6 +93,35 @@ def visited(browser: Browser, what: str, cache: Path) -> tuple[Visit, float]:
     """Start a page's program, open the page, and end it, so that nothing else runs beside it."""
     with served(what, cache) as (url, seconds):
         return visit(browser, url), seconds
+
+
+def reloads(browser: Browser, visits: int) -> Iterator[Row]:
+    """How soon a page that is loaded anew is where it was: step, choice, slider and playhead."""
+    theirs, ours = [], []
+    head = f"{PLAYHEAD:.2f} of"
+    with tempfile.TemporaryDirectory() as cache:
+        for _ in range(visits):
+            with opened(browser, "field", Path(cache)) as page:
+                theirs.append(reload(page, "Neurons", str(NEURONS), "Neurons"))
+            with opened(browser, "taught", Path(cache)) as page:
+                page.get_by_role("button", name="3 Learn", exact=True).click()
+                learn = reload(page, "Neurons", str(NEURONS), head)
+                page.get_by_role("button", name="4 Compare", exact=True).click()
+                ours.append(max(learn, reload(page, "Ghost", GHOST, head)))
+    yard, own = float(np.median(theirs)), float(np.median(ours))
+    row = compared("loaded anew to where it was [s]", "≤ 2 s", yard, own)
+    yield replace(row, met=own <= 2.0)
+
+
+@contextmanager
+def opened(browser: Browser, what: str, cache: Path) -> Iterator[Page]:
+    """Start a page's program and open its page in a fresh browser profile."""
+    with served(what, cache) as (url, _):
+        page = browser.new_page(viewport=SIZE)
+        page.set_default_timeout(1000.0 * PATIENCE)
+        page.goto(url)
+        yield page
+        page.close()
 
 
 def compared(what: str, wanted: str, theirs: float, ours: float, bar: float | None = None) -> Row:
@@ -342,17 +238,13 @@ def settled(page: Page) -> bytes:
 def main() -> None:
     """Measure, print, and put the table into the page."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--serve", choices=("studio", "minimal", "light"))
     parser.add_argument("--visits", type=int, default=VISITS, help="of each page")
     asked = parser.parse_args()
-    if asked.serve:
-        serve(asked.serve)
-        return
     rows = list(frames())
     with sync_playwright() as playwright:
         program = next(path for path in map(shutil.which, NAMES) if path)
         browser = playwright.chromium.launch(executable_path=program, args=FLAGS)
-        rows = [*weights(browser, asked.visits), *rows]
+        rows = [*weights(browser, asked.visits), *reloads(browser, asked.visits), *rows]
         print(*rows, sep="\n", flush=True)
         rows += pictures(browser)
         browser.close()
