@@ -15,6 +15,12 @@ TOOK_OVER = "You took over: the tour is over, and what it has made is yours."
 LEFT = "You left the tour; what it has made so far is yours."
 _FRAME = f"border-left:10px solid {css(BRAND)};padding:.2em .6em;font-size:max(16px,2.1vh)"
 
+# viser's own notices, as that a machine has no graphics card, would lie over the captions. Where a
+# later viser names them in another way they do again, until somebody closes them.
+_NOTICES_BELOW = """<style>
+.mantine-Notifications-root { margin-top: max(190px, 26vh); }
+</style>"""
+
 
 class Guide:
     """Whoever leads the tour; any thread may call.
@@ -79,6 +85,7 @@ class TourCaption:
     def __init__(self, gui: viser.GuiApi, leave: Callable[[], None]) -> None:
         self.panel = gui.add_panel(visible=False)
         with self.panel.add_tab("Tour"):
+            gui.add_html(_NOTICES_BELOW)
             self._words = gui.add_html("")
             self._leave = gui.add_button(
                 "Leave the tour",

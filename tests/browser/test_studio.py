@@ -140,14 +140,20 @@ def test_closing_the_page_while_somebody_teaches_lets_go(studio: Studio) -> None
 
 
 def test_the_tour_is_begun_and_left(studio: Studio) -> None:
+    notice = studio.page.get_by_text("Software WebGL").locator("visible=true")
+    expect(notice).to_be_visible()  # of this machine, which has no graphics card
+    above = notice.bounding_box()["y"]
     studio.press("Take the tour")
     studio.shows("Tour 1/")
+    leave = studio.button("Leave the tour").bounding_box()
+    assert notice.bounding_box()["y"] > leave["y"] + leave["height"]  # below the caption
     studio.shows("Tour 2/")
     expect(studio.button("Record")).to_be_visible()  # it opens its steps by itself
     studio.press("Stop")
     studio.shows("You took over")
     studio.press("Close")
     expect(studio.page.get_by_text("You took over")).to_be_hidden()
+    assert notice.bounding_box()["y"] == above
 
 
 def test_baxter_stands_on_the_page(page: Page, tmp_path: Path) -> None:
