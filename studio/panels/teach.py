@@ -11,7 +11,8 @@ from studio.panels.inputs import Post
 from studio.panels.readiness import FOLLOWING, why_not_teach
 from studio.panels.recordings import RecordingsPanel
 
-AUTOMATIC, BY_HAND = "automatic: while armed", "by hand: begin and end"
+AUTOMATIC, BY_HAND = "automatic: while armed", "by hand: between two presses"
+PRESSES = "A take keeps what lies between two presses, as far as Baxter was armed."
 UNDO, FOR_GOOD = "Undo", "Delete for good"
 
 
@@ -19,12 +20,8 @@ class TeachPanel:
     """The second step."""
 
     def __init__(self, gui: viser.GuiApi, post: Post) -> None:
-        self._how = gui.add_dropdown(
-            "Recording",
-            (AUTOMATIC, BY_HAND),
-            hint="Automatic keeps each stretch in which Baxter was armed; by hand keeps what lies "
-            "between two presses, as far as Baxter was armed",
-        )
+        # Without a hint: it would cover the panel where "Take the tour" was clicked on.
+        self._how = gui.add_dropdown("Recording", (AUTOMATIC, BY_HAND))
         self._repeat = gui.add_checkbox(
             "Take after take",
             True,
@@ -96,7 +93,8 @@ class TeachPanel:
         self._end.visible = by_hand and is_recording
         first = "" if is_watched or refusal else "Press Watch first: then begin a take."
         why = () if marks else (refusal, first if by_hand else "")
-        self._notes.content = markup.reasons(why) + _hint(now)
+        keeps = markup.note(PRESSES) if by_hand else ""
+        self._notes.content = markup.reasons(why) + keeps + _hint(now)
 
 
 def is_endless(now: Snapshot) -> bool:

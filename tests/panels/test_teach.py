@@ -19,7 +19,7 @@ from studio.panels.cards import headline, line
 from studio.panels.flags import explained, verdict
 from studio.panels.recordings import broken, described, label
 from studio.panels.sparkline import WIDTH
-from studio.panels.teach import BY_HAND, UNDO, TeachPanel, removed
+from studio.panels.teach import BY_HAND, PRESSES, UNDO, TeachPanel, removed
 from tests.engine.cards_at_hand import DEFECTS, listed, takes
 from tests.panels.people import use
 
@@ -181,6 +181,7 @@ def test_recording_automatically_and_by_hand(panel, lesson, asked) -> None:
     )
     assert panel._begin.disabled
     assert "Press Watch first" in panel._notes.content
+    assert PRESSES in panel._notes.content
     panel.draw(lesson["open"])  # somebody is watched
     assert not panel._begin.disabled
     assert not panel._watch.visible
