@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from studio.engine.arms import Arms, learned_joints
+from studio.engine.arms import Arms, learned_joints, sides_of
 from studio.engine.calibration import Calibration
 from studio.engine.errors import StudioError
 from studio.engine.gate import GateMode
@@ -12,6 +12,7 @@ from studio.engine.pipeline import Pipeline
 from studio.engine.retarget import Mapping
 from studio.engine.robot import load_robot
 from studio.engine.scene import USUAL, Scene
+from studio.engine.skeleton import Side, other_side
 from studio.engine.world import World
 
 
@@ -31,6 +32,12 @@ class Choices:
     def joints(self) -> tuple[str, ...]:
         """The joints that are learned; a lesson of other ones is of no use."""
         return learned_joints(self.arms, self.mapping)
+
+    @property
+    def persons_sides(self) -> tuple[Side, ...]:
+        """The person's arms that are followed, in the order of Baxter's that follow them."""
+        sides = sides_of(self.arms)
+        return tuple(other_side(side) for side in sides) if self.mirrored else sides
 
     def pipeline(self) -> Pipeline:
         """Return the way from skeletons to commands."""

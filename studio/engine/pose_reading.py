@@ -11,7 +11,7 @@ from studio.engine.choices import Choices
 from studio.engine.human import Held, HumanArmAngles, arm_vectors, human_arm_angles
 from studio.engine.retarget import DRIVEN_JOINTS, MAPPINGS, Angles, Mapping, solve_arm
 from studio.engine.robot import load_robot
-from studio.engine.skeleton import FloatArray, Side, Skeleton, other_side
+from studio.engine.skeleton import FloatArray, Side, Skeleton
 from studio.engine.vectors import Vector, angle_between
 
 # Which of Baxter's joints turns as which of the person's angles does (the paper's Section II-E).
@@ -44,8 +44,7 @@ def read_pose(
     """Return the reading of each driven arm; ``joint_positions`` are Baxter's (15,) [rad]."""
     robot = load_robot()
     readings = []
-    for side in sides_of(choices.arms):
-        persons = other_side(side) if choices.mirrored else side
+    for side, persons in zip(sides_of(choices.arms), choices.persons_sides, strict=True):
         joints = {
             angle: float(joint_positions[robot.joint_index(f"{side}_{joint}")])
             for angle, joint in COUNTERPARTS.items()

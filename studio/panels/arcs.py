@@ -1,26 +1,27 @@
-"""The six angles of the person's arm, drawn as arcs with their numbers, where the arm is."""
+"""The six angles of the person's arms, drawn as arcs with their numbers, where the arms are."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import viser
 
 from studio.engine.arm_arcs import NAMES, STEPS, Arc, arm_arcs
-from studio.engine.arms import sides_of
-from studio.engine.skeleton import FloatArray, Side, other_side
+from studio.engine.placement import Placement
+from studio.engine.skeleton import SIDES, FloatArray, Side
 from studio.engine.snapshot import Snapshot
 from studio.panels.palette import ARCS
 from studio.panels.placing import Placing
 
 NUMBERS = dict(zip(NAMES, "①②③④⑤⑥", strict=True))  # as in the table beside
 _NOWHERE = np.zeros((STEPS - 1, 2, 3))
-# [m] in the world, from the middle of an arc to its number: apart, and off the arm.
+# [m] in the world, from the middle of an arc to its number: apart, and off the left arm.
 _BESIDE = np.array(
     [
-        (0.0, -0.05, 0.04),
+        (0.0, 0.08, -0.06),
         (0.0, -0.02, 0.15),
-        (0.0, 0.20, 0.03),
-        (0.0, 0.20, -0.03),
+        (0.0, 0.16, 0.09),
+        (0.0, 0.22, 0.05),
         (0.0, 0.14, -0.12),
         (0.0, -0.14, -0.12),
     ]
@@ -28,13 +29,39 @@ _BESIDE = np.array(
 
 
 class ArcsView:
-    """Draws the arcs of the first arm that is followed, while ``wanted``."""
+    """Draws the arcs of the arms that are followed, while ``wanted``; nothing is sent else."""
 
     def __init__(self, scene: viser.SceneApi, name: str = "/arcs") -> None:
         self.wanted = False
         self._placing = Placing()
         self._drawn: object = None
         self._root = scene.add_frame(name, show_axes=False, visible=False)
+        self._arms = {side: _ArmArcs(scene, f"{name}/{side}", side) for side in SIDES}
+
+    def draw(self, now: Snapshot) -> None:
+        """Show a snapshot."""
+        placement = self._placing.of(now)
+        self._root.visible = self.wanted and placement is not None
+        state = (now.skeleton, now.choices.persons_sides)
+        if not self._root.visible or state == self._drawn:
+            return
+        self._drawn = state
+        if now.skeleton is None or placement is None:
+            return
+        letters = letters_of(now.choices.persons_sides)
+        for side, arm in self._arms.items():
+            arm.root.visible = side in letters
+            if side in letters:
+                arm.draw(arm_arcs(now.skeleton, side), placement, letters[side])
+
+
+class _ArmArcs:
+    """The arcs of one arm: all lines as one node, whose size stays, and a label each."""
+
+    def __init__(self, scene: viser.SceneApi, name: str, side: Side) -> None:
+        outward = (1.0, 1.0 if side == "left" else -1.0, 1.0)
+        self._beside = outward * _BESIDE
+        self.root = scene.add_frame(name, show_axes=False, visible=False)
         self._lines = scene.add_line_segments(
             f"{name}/lines",
             np.tile(_NOWHERE, (len(NAMES), 1, 1)),
@@ -47,31 +74,23 @@ class ArcsView:
             for arc in NAMES
         }
 
-    def draw(self, now: Snapshot) -> None:
-        """Show a snapshot."""
-        placement = self._placing.of(now)
-        self._root.visible = self.wanted and placement is not None
-        state = (now.skeleton, now.choices)
-        if not self._root.visible or now.skeleton is None or state == self._drawn:
-            return
-        self._drawn = state
-        arcs = {arc.name: arc for arc in arm_arcs(now.skeleton, persons_side(now))}
-        lines = {name: _segments(arc) for name, arc in arcs.items()}
-        points = np.concatenate([lines.get(name, _NOWHERE) for name in NAMES])
-        outward = (1.0, 1.0 if persons_side(now) == "left" else -1.0, 1.0)
-        if placement is not None:
-            self._lines.points = placement.place(points).astype(np.float32)
-            for (name, label), beside in zip(self._labels.items(), _BESIDE, strict=True):
-                label.visible = name in arcs
-                if name in arcs:
-                    label.text = number(arcs[name])
-                    label.position = placement.place(arcs[name].middle) + outward * beside
+    def draw(self, arcs: Sequence[Arc], placement: Placement, letter: str) -> None:
+        """Show the arcs that there are."""
+        of_name = {arc.name: arc for arc in arcs}
+        lines = [_segments(of_name[name]) if name in of_name else _NOWHERE for name in NAMES]
+        placed = placement.place(np.stack(lines))
+        self._lines.points = placed.reshape(-1, 2, 3).astype(np.float32)
+        positions = placed[:, (STEPS - 1) // 2, 0] + self._beside
+        for (name, label), position in zip(self._labels.items(), positions, strict=True):
+            label.visible = name in of_name
+            if name in of_name:
+                label.text = letter + number(of_name[name])
+                label.position = position
 
 
-def persons_side(now: Snapshot) -> Side:
-    """Return which of the person's arms is drawn: the one that Baxter's first arm follows."""
-    first = sides_of(now.choices.arms)[0]
-    return other_side(first) if now.choices.mirrored else first
+def letters_of(sides: Sequence[Side]) -> dict[Side, str]:
+    """Return what stands before an arm's numbers: its letter, where there is another arm."""
+    return {side: side[0].upper() if len(sides) > 1 else "" for side in sides}
 
 
 def number(arc: Arc) -> str:
@@ -85,6 +104,12 @@ def _segments(arc: Arc) -> FloatArray:
 
 
 def _colors() -> FloatArray:
-    """Return the color of both ends of each line (6 (STEPS - 1), 2, 3)."""
-    each = np.repeat(np.array(ARCS, np.uint8), STEPS - 1, axis=0)
+    """Return the color of both ends of each line (6 (STEPS - 1), 2, 3).
+
+    The page takes colors of lines' ends for linear light, and those of its other things as screens
+    do (IEC 61966-2-1): so here they are made linear, to be the same as in the table.
+    """
+    shown = np.array(ARCS) / 255.0
+    linear = np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
+    each = np.repeat(np.round(255.0 * linear).astype(np.uint8), STEPS - 1, axis=0)
     return np.stack([each, each], axis=1)

@@ -1,4 +1,4 @@
-"""The six angles of the person's arm beside Baxter's joints: a table, and arcs in the 3D view."""
+"""The six angles of the person's arms beside Baxter's joints: a table, and arcs in the 3D view."""
 
 import math
 
@@ -8,7 +8,7 @@ from studio.engine.arm_arcs import NAMES
 from studio.engine.pose_reading import COUNTERPARTS, ArmReading, read_pose
 from studio.engine.snapshot import Snapshot
 from studio.panels import markup
-from studio.panels.arcs import NUMBERS, ArcsView
+from studio.panels.arcs import NUMBERS, ArcsView, letters_of
 from studio.panels.inputs import on_choice
 from studio.panels.palette import ARCS, css
 
@@ -19,7 +19,7 @@ class ArmAnglesPanel:
     def __init__(self, gui: viser.GuiApi, arcs: ArcsView) -> None:
         self._arcs = arcs
         self._wanted = gui.add_checkbox(
-            "Draw the arcs", False, hint="The paper's six angles, drawn where the person's arm is"
+            "Draw the arcs", False, hint="The paper's six angles, drawn where the person's arms are"
         )
         on_choice(self._wanted, self._switch)
         self._table = gui.add_html("")
@@ -41,14 +41,16 @@ def described(now: Snapshot) -> str:
         "Yours are the paper's (Fig. 5): between bones, without a sign. Baxter's are turns of its "
         "joints, from zeros of its own; so they rise and fall together, and are not equal."
     )
-    return "".join(_table(each) for each in readings) + note
+    letters = letters_of(now.choices.persons_sides)
+    return "".join(_table(each, letters[each.persons]) for each in readings) + note
 
 
-def _table(reading: ArmReading) -> str:
-    head = (f"your {reading.persons} arm", "", f"Baxter's {reading.robots}", "")
+def _table(reading: ArmReading, letter: str) -> str:
+    named = f"{letter}: " if letter else ""
+    head = (f"{named}your {reading.persons} arm", "", f"Baxter's {reading.robots}", "")
     rows = [
         (
-            f"{NUMBERS[name]} {name.replace('_', ' ')}",
+            f"{letter}{NUMBERS[name]} {name.replace('_', ' ')}",
             _degrees(getattr(reading.angles, name)),
             COUNTERPARTS[name],
             _degrees(reading.joints[name]),
@@ -56,8 +58,9 @@ def _table(reading: ArmReading) -> str:
         for name in NAMES
     ]
     table = markup.table(head, rows)
-    for sign, color in zip(NUMBERS.values(), ARCS, strict=True):  # each in the color of its arc
-        table = table.replace(sign, f'<b style="border-bottom:4px solid {css(color)}">{sign}</b>')
+    for number, color in zip(NUMBERS.values(), ARCS, strict=True):  # each in its arc's color
+        marked = f'<b style="border-bottom:4px solid {css(color)}">{letter}{number}</b>'
+        table = table.replace(letter + number, marked)
     return table
 
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from studio.engine.compare_status import Alone
 from studio.engine.demonstration import SAMPLES, DemonstrationSet, resample
@@ -14,6 +15,8 @@ from studio.engine.snapshot import Snapshot
 from studio.panels.readiness import fitting
 
 SMALLEST_RANGE, ROUND = 15.0, 5.0  # [deg] of the angle's axis
+KEPT = 0.6  # of an axis is the curves', where it grows to limits that are near enough
+_CLEAR = np.array((-2.0, 2.0))  # [deg] from a limit to the axis's end, so that its line is seen
 MOST_THIN = 6  # demonstrations with a line of their own; the envelope holds all
 
 
@@ -60,11 +63,15 @@ class Curves:
         )
 
     def axis_of(self, column: int, to_limits: bool) -> tuple[float, float]:
-        """Return round bounds [deg] of a joint's axis: about all curves, or about its limits."""
+        """Return round bounds [deg] of a joint's axis: about all curves, and its limits.
+
+        Unless it goes ``to_limits``, these are left out where the curves would be squashed.
+        """
         shown = (self.low, self.high, self.chosen, self.network, self.robot, self.second)
         values = np.concatenate([curve[:, column] for curve in shown])
         limits = self.limits[:, column]
-        return axis_range(np.concatenate([values, limits]) if to_limits else values)
+        kept = np.array([True, True]) if to_limits else near(values, limits)
+        return axis_range(np.append(values, (limits + _CLEAR)[kept]))
 
 
 def curves_of(now: Snapshot) -> Curves | None:
@@ -125,6 +132,17 @@ def _measured(alone: Alone, curves: Curves, taught: DemonstrationSet) -> FloatAr
     columns = joint_columns(taught.joints)
     measured: FloatArray = np.degrees(alone.performance.measured_at(curves.stamps)[:, columns])
     return measured
+
+
+def near(values: FloatArray, limits: FloatArray) -> NDArray[np.bool_]:
+    """Return which of two limits [deg] the curves have room for: both, the nearer one, or none."""
+    lowest, highest = float(np.nanmin(values)), float(np.nanmax(values))
+    room = max(highest - lowest, SMALLEST_RANGE) * (1.0 / KEPT - 1.0)
+    gaps = np.maximum((lowest - limits[0], limits[1] - highest), 0.0)
+    if gaps.sum() <= room:
+        return np.array([True, True])
+    nearer: NDArray[np.bool_] = np.arange(2) == gaps.argmin()
+    return nearer & (gaps <= room)
 
 
 def axis_range(values: FloatArray) -> tuple[float, float]:

@@ -9,17 +9,18 @@ from studio.engine.snapshot import Snapshot
 from studio.panels import markup
 from studio.panels.curves import Curves, curves_of, shown_columns
 from studio.panels.palette import ENVELOPE, GHOST, LIMIT, MEAN, NETWORK, ROBOT, SECOND, css
+from studio.panels.playhead import EVERY
 
-HEIGHT = 100  # [px] of a plot: four of them stand under each other at 768 px
+HEIGHT = 100  # [px] of a plot without its title
 CLOSE, WIDE, OFF = "about the curves", "up to the limits", "no plots"
-_A_SECOND = 5  # updates while the playhead moves: each sends a plot's data anew
 
 
 class EvidencePanel:
     """One plot a joint, and what its lines are; of two arms one at a time, so that all is seen.
 
     Whether a browser shows this tab it does not tell, so people can turn the plots off: what is not
-    shown is not drawn.
+    shown is not drawn. All of a plot's data are sent anew each time, so that one where nothing but
+    the playhead has moved waits for its turn.
     """
 
     def __init__(self, gui: viser.GuiApi, tab: viser.GuiTabHandle) -> None:
@@ -33,14 +34,17 @@ class EvidencePanel:
         self._legend = gui.add_html(_NOTHING)
         self._plots: list[JointPlot] = []
         self._drawn: object = None
+        self._at: float | None = None
+        self._drawings = EVERY  # since the plots were drawn
 
     def draw(self, now: Snapshot) -> None:
         """Show a snapshot, if something in it is new."""
+        self._drawings += 1
         chosen = self._axes.value
-        state = _state(now), chosen, self._arm.value
-        if state == self._drawn:
+        state, at = (_state(now), chosen, self._arm.value), _playhead(now)
+        if state == self._drawn and (at == self._at or self._drawings < EVERY):
             return
-        self._drawn = state
+        self._drawn, self._at, self._drawings = state, at, 0
         curves = None if chosen == OFF else curves_of(now)
         empty = _HIDDEN if chosen == OFF else _NOTHING
         self._legend.content = empty if curves is None else _LEGEND
@@ -94,25 +98,36 @@ class JointPlot:
 
 
 def _state(now: Snapshot) -> tuple[object, ...]:
-    """Return what the plots depend on."""
-    playing, timeline = now.compare.playing, now.compare.timeline
+    """Return what the plots depend on besides the playhead."""
     return (
         now.entries,
         now.chosen,
         now.lesson,
         now.reproduction,
         now.choices.joints,
-        tuple(alone.lesson for alone in playing),
-        timeline.title,
-        timeline.title and (int(now.time * _A_SECOND) if timeline.is_playing else now.time),
+        tuple(alone.lesson for alone in now.compare.playing),
+        now.compare.timeline.title,
     )
+
+
+def _playhead(now: Snapshot) -> float | None:
+    """Return when the playhead is [s], or None without one."""
+    return now.time if now.compare.timeline.title else None
 
 
 def _frame(curves: Curves, column: int, to_limits: bool) -> tuple[str, tuple[float, float], int]:
     """Return a plot's title, the bounds of its axis [deg], and how many thin lines it has."""
+    axis = curves.axis_of(column, to_limits)
     lower, upper = curves.limits[:, column]
-    title = f"{curves.joints[column]} [deg] · limits {lower:.0f} to {upper:.0f}"
-    return title, curves.axis_of(column, to_limits), len(curves.thin)
+    title = f"{curves.joints[column]} [deg] · {limits_in_words(lower, upper, axis)}"
+    return title, axis, len(curves.thin)
+
+
+def limits_in_words(lower: float, upper: float, axis: tuple[float, float]) -> str:
+    """Return a joint's limits [deg], and which of them have no line as they lie off the axis."""
+    low, high = (f"{round(limit, 1):g}" for limit in (lower, upper))
+    off = lower < axis[0], upper > axis[1]
+    return f"limits {low} to {high}{_OFF[off]}"
 
 
 def _scales(stamps: FloatArray, axis: tuple[float, float]) -> dict[str, viser.uplot.Scale]:
@@ -142,14 +157,20 @@ def _series(thin: int) -> tuple[viser.uplot.Series, ...]:
         _line("network", css(NETWORK), 2.0),
         _line("robot", css(ROBOT), 3.0),
         _line("robot B", css(SECOND), 3.0, (4, 2)),
-        _line("lower limit", css(LIMIT), 2.0, (1, 4)),
-        _line("upper limit", css(LIMIT), 2.0, (1, 4)),
+        _line("lower limit", css(LIMIT), 2.0, (2, 4)),
+        _line("upper limit", css(LIMIT), 2.0, (2, 4)),
         _line("playhead", css(MEAN, 0.8), 1.5),
     )
 
 
+_OFF = {
+    (False, False): "",
+    (True, False): ", lower off the axis",
+    (False, True): ", upper off the axis",
+    (True, True): ", both off the axis",
+}
 _BANDS = (viser.uplot.Band(series=(2, 1), fill=css(ENVELOPE, 0.25)),)
-_AXES = (viser.uplot.Axis(size=26), viser.uplot.Axis(size=42))  # [px] for the numbers
+_AXES = (viser.uplot.Axis(size=26), viser.uplot.Axis(size=46))  # [px] for the numbers
 _NOTHING = markup.note("Nothing has been taught yet: the plots come with the first demonstration.")
 _HIDDEN = markup.note("The plots are off: choose other axes to draw them.")
 

@@ -1,5 +1,6 @@
 """The puppet's panels: who takes it in the first step, and its signs under the gate."""
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Literal
 
@@ -11,7 +12,6 @@ from studio.engine.gate_words import WHY
 from studio.engine.skeleton import SIDES, HandState, Side
 from studio.engine.snapshot import Snapshot
 from studio.panels import markup
-from studio.panels.arcs import persons_side
 from studio.panels.inputs import Post
 from studio.panels.palette import HAND, css
 from studio.panels.readiness import FOLLOWING
@@ -132,17 +132,22 @@ HOW_TO_DRAG = markup.note(
 
 def next_move(now: Snapshot) -> str:
     """Return what whoever has the puppet should do next; nothing where Baxter itself says why."""
-    gate, side = now.gate, persons_side(now)
+    gate, hands = now.gate, _hands_in_words(now.choices.persons_sides)
     if now.mode not in FOLLOWING or gate is None:
         return "2 Teach: Record; then sign, and drag its hand"
     if not gate.armed:
         return _sign_next(now)
     if now.held == COMING:
-        return f"Wait: Baxter comes to its {side} hand"
+        return f"Wait: Baxter comes to its {hands}"
     if now.held or now.guarded or gate.left is not None:
         return ""
     ending = "LASSO (L) disarms" if now.choices.gate == "sequence" else "Stop ends it"
-    return f"Drag its {side} hand: push the block; {ending}"
+    return f"Drag its {hands}: push the block; {ending}"
+
+
+def _hands_in_words(sides: Sequence[Side]) -> str:
+    """Return which of the puppet's hands teach."""
+    return "hands" if len(sides) > 1 else f"{sides[0]} hand"
 
 
 def _sign_next(now: Snapshot) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies
 
-from studio.engine.arm_arcs import NAMES, arm_arcs
+from studio.engine.arm_arcs import NAMES, STEPS, arm_arcs
 from studio.engine.human import human_arm_angles
 from studio.engine.puppet import PuppetTeacher
 from studio.engine.skeleton import SIDES, Joint
@@ -31,6 +31,8 @@ def test_every_arc_spans_its_angle(shift, side) -> None:
         assert arc.angle == pytest.approx(expected, abs=1e-7)
         steps = np.linalg.norm(np.diff(arc.points, axis=0), axis=1)
         assert steps == pytest.approx(np.full(len(steps), steps.mean()), abs=1e-9)
+        # [m] from the middle of a line to the circle: nobody sees the corners
+        assert steps.mean() / 2.0 * np.tan(arc.angle / (STEPS - 1) / 4.0) < 0.002
 
 
 def test_arcs_stand_at_the_arm() -> None:

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from studio.engine.arms import ARMS
 from studio.engine.calibration import Calibration
 from studio.engine.choices import Choices
 from studio.engine.hands import HandOptions
@@ -18,6 +19,13 @@ def test_the_pipeline_is_what_was_chosen() -> None:
     assert (made.arms, made.mapping, made.gate.mode) == ("both", "paper", "open")
     assert (made.mirrored, made.calibration) == (True, CHOSEN.calibration)
     assert made.hands.options == CHOSEN.hands
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("arms", ARMS)
+def test_the_persons_arms_are_those_that_the_pipeline_follows(arms, mirrored) -> None:
+    chosen = Choices(arms, mirrored=mirrored)
+    assert chosen.persons_sides == tuple(each.persons_side for each in chosen.pipeline().stages)
 
 
 @pytest.mark.parametrize(

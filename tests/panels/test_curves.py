@@ -11,7 +11,16 @@ from studio.engine.arms import learned_joints
 from studio.engine.compare_status import Alone
 from studio.engine.demonstration import SAMPLES, resample
 from studio.engine.robot import load_robot
-from studio.panels.curves import MOST_THIN, SMALLEST_RANGE, axis_range, curves_of, shown_columns
+from studio.panels.curves import (
+    KEPT,
+    MOST_THIN,
+    ROUND,
+    SMALLEST_RANGE,
+    axis_range,
+    curves_of,
+    near,
+    shown_columns,
+)
 
 AXIS = (-40.0, 60.0)
 
@@ -127,6 +136,41 @@ def test_an_axis_holds_the_limits_where_asked(lesson) -> None:
     lower, upper = curves.limits[:, 1]
     assert wide[0] <= lower < upper <= wide[1]
     assert narrow[1] - narrow[0] < wide[1] - wide[0]
+
+
+@given(
+    arrays.arrays(np.float64, 20, elements=strategies.floats(-200.0, 200.0)),
+    strategies.floats(-300.0, 0.0),
+    strategies.floats(0.5, 300.0),
+)
+@settings(deadline=None, derandomize=True)
+def test_limits_are_kept_where_the_curves_keep_most_of_the_axis(values, lower, width) -> None:
+    """As many of them as there is room for, the nearer one first."""
+    limits = np.array([lower, lower + width])
+    swing = max(np.ptp(values), SMALLEST_RANGE)
+    gaps = np.maximum([values.min() - limits[0], limits[1] - values.max()], 0.0)
+
+    def fits(kept: object, slack: float) -> bool:
+        return bool(swing + slack >= KEPT * (swing + gaps[kept].sum()))
+
+    kept = near(values, limits)
+    assert fits(kept, 1e-9)
+    for other in ([True, False], [False, True], [True, True]):
+        assert sum(other) <= kept.sum() or not fits(other, -1e-9)
+    assert kept.sum() != 1 or gaps[kept] <= gaps[~kept]
+
+
+def test_an_axis_grows_to_a_limit_that_is_near_and_to_no_other(lesson) -> None:
+    """The push swings s0 by some 65°, and comes up to some 35° from its lower limit."""
+    curves = curves_of(lesson["trained"])
+    axes = [curves.axis_of(column, to_limits=False) for column in range(len(curves.joints))]
+    shown = [
+        [low < lower, upper < high]
+        for (low, high), (lower, upper) in zip(axes, curves.limits.T, strict=True)
+    ]
+    assert shown == [[True, False], [False, False], [False, False], [False, False]]
+    for lower, upper in axes:
+        assert lower % ROUND == upper % ROUND == 0.0
 
 
 @given(arrays.arrays(np.float64, 20, elements=strategies.floats(-200.0, 200.0)))

@@ -67,6 +67,8 @@ def test_where_the_gate_stands_open_nobody_is_asked_to_sign(now) -> None:
 def test_the_hand_to_drag_is_the_one_that_is_followed(now) -> None:
     mirrored = replace(now["followed"], choices=Choices(mirrored=True))
     assert "right hand" in next_move(mirrored)
+    both = replace(now["followed"], choices=Choices("both"))
+    assert next_move(both).startswith("Drag its hands: ")
 
 
 def test_signs_are_there_while_the_puppet_is(now, lesson, gui) -> None:
