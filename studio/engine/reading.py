@@ -52,7 +52,7 @@ class ReadFile:
         return f"reading {self.file.shown}"
 
     def points(self) -> Iterator[Share | Part | Content]:
-        """Read; raise FileError, which knows the file as the user does, where it is of no use."""
+        """Read; raise FileError, whose place is in the file of `name`, where it is of no use."""
         heard = [0.0]
         with ThreadPoolExecutor(1) as thread:  # so that there is somebody to tell how far it is
             result = thread.submit(self._read, heard)
@@ -71,8 +71,9 @@ class ReadFile:
             if is_recording(path):
                 return read_recording(path)
             return replace(read_skeletons(path, self.file.body, heard.append), path=name)
-        except FileError as error:  # names the copy; the user knows the file by its own name
-            raise FileError(str(error).replace(str(path), name)) from None
+        except FileError as error:  # names the copy; the task's name says the user's own
+            words = str(error).removeprefix(f"{path}: ").replace(str(path), name)
+            raise FileError(words) from None
 
 
 def whole(points: tuple[object, ...]) -> Content:

@@ -67,6 +67,7 @@ def test_files_are_read_one_after_the_other_and_a_broken_one_holds_up_none(tmp_p
         with pytest.raises(FileError, match=r"my take\.json") as refused:
             found(reading)
         assert str(tmp_path) not in str(refused.value)
+        assert str(refused.value).count("my take.json") == 1
         assert found(reading).file == UseFile(STREAM)
         assert reading.status is None
     finally:

@@ -1,6 +1,7 @@
 import gzip
 import os
 import tracemalloc
+import zlib
 from pathlib import Path
 from unittest import mock
 
@@ -59,11 +60,20 @@ def test_gzip_cut_off_or_damaged_anywhere_is_an_error(tmp_path):
     whole = gzip.compress(bytes(range(128)) * 16)
     for count in range(2, len(whole)):
         path.write_bytes(whole[:count])
-        with pytest.raises(FileError, match="damaged or cut off"):
+        with pytest.raises(FileError, match=r"bytes: .* found them cut off; fetch"):
             read_content(path)
     path.write_bytes(whole[:-8] + b"\0\0\0\0" + whole[-4:])  # a wrong checksum
-    with pytest.raises(FileError, match="damaged or cut off"):
+    with pytest.raises(FileError, match=r"found them damaged \(CRC"):
         read_content(path)
+
+
+def test_where_gzip_ends_too_early_is_told_to_the_byte(tmp_path):
+    path = tmp_path / "cut.gz"
+    path.write_bytes(gzip.compress(bytes(range(250)) * 1000)[:-20])
+    could_be_read = len(zlib.decompressobj(31).decompress(path.read_bytes()))
+    with pytest.raises(FileError, match=f"after {could_be_read:,} bytes"):
+        read_content(path)
+    assert could_be_read > 0
 
 
 @pytest.mark.parametrize("pack", [bytes, gzip.compress])
