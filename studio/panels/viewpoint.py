@@ -18,6 +18,7 @@ class View:
 
 
 ALONE = View((3.6, 0.75, 1.95), (0.25, -0.34, 0.84))
+RIGHT_HAND = View((4.4, 0.7, 2.15), (0.25, -0.42, 0.82))  # of the person, who stands to the left
 WITH_ONE = View((6.5, 1.7, 2.5), (0.2, 0.6, 0.75))  # a second robot, or a board
 WITH_BOTH = View((8.7, 2.6, 3.0), (0.2, 1.4, 0.7))
 
@@ -45,4 +46,5 @@ class Viewpoint:
 def view_of(now: Snapshot) -> View:
     """Return the view that shows all there is."""
     beside = (now.compare.beside is not None, now.compare.field is not None)
-    return (ALONE, WITH_ONE, WITH_BOTH)[sum(beside)]
+    alone = RIGHT_HAND if "right" in now.choices.persons_sides else ALONE
+    return (alone, WITH_ONE, WITH_BOTH)[sum(beside)]

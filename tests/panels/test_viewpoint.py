@@ -3,7 +3,8 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-from studio.panels.viewpoint import ALONE, WITH_BOTH, WITH_ONE, View, Viewpoint, view_of
+from studio.engine.choices import Choices
+from studio.panels.viewpoint import ALONE, RIGHT_HAND, WITH_BOTH, WITH_ONE, View, Viewpoint, view_of
 
 
 def server(*clients: SimpleNamespace) -> SimpleNamespace:
@@ -39,3 +40,16 @@ def test_more_beside_the_robot_is_seen_from_further_away(lesson) -> None:
     board = replace(now, compare=replace(now.compare, field=object()))
     both = replace(now, compare=replace(now.compare, field=object(), beside=now.world))
     assert [view_of(each) for each in (now, board, both)] == [ALONE, WITH_ONE, WITH_BOTH]
+
+
+def test_a_persons_right_hand_that_teaches_is_seen_beside_the_panels(lesson) -> None:
+    now = lesson["played"]
+    arms = {
+        ("left", False): ALONE,
+        ("left", True): RIGHT_HAND,  # in a mirror the person's right hand moves Baxter's left
+        ("right", False): RIGHT_HAND,
+        ("both", False): RIGHT_HAND,
+    }
+    for (arm, mirrored), view in arms.items():
+        assert view_of(replace(now, choices=Choices(arm, mirrored=mirrored))) == view
+    assert RIGHT_HAND.position[0] > ALONE.position[0]
