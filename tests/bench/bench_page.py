@@ -102,12 +102,12 @@ def reloads(browser: Browser, visits: int) -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as cache:
         for _ in range(visits):
             with opened(browser, "field", Path(cache)) as page:
-                theirs.append(reload(page, "Neurons", str(NEURONS), "Neurons"))
+                theirs.append(reload(page, str(NEURONS), "Neurons"))
             with opened(browser, "taught", Path(cache)) as page:
                 page.get_by_role("button", name="3 Learn", exact=True).click()
-                learn = reload(page, "Neurons", str(NEURONS), head)
+                learn = reload(page, str(NEURONS), head)
                 page.get_by_role("button", name="4 Compare", exact=True).click()
-                ours.append(max(learn, reload(page, "Ghost", GHOST, head)))
+                ours.append(max(learn, reload(page, GHOST, head)))
     yard, own = float(np.median(theirs)), float(np.median(ours))
     row = compared("loaded anew to where it was [s]", "≤ 2 s", yard, own)
     yield replace(row, met=own <= 2.0)
