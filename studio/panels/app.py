@@ -169,6 +169,7 @@ class App:
 
     def _draw_surroundings(self) -> None:
         """Show what is not the session's: how well it keeps up, who controls, what is missing."""
+        self.scene.shade(self.page.is_dark)
         self.page.tell_pace(self._loop.pace)
         self._control.draw()
         if self._control.is_elsewhere:

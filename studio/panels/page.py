@@ -130,6 +130,11 @@ class Page:
         self._caption.draw(caption, self._guide.farewell)
         self._invitation.draw(caption is not None)
 
+    @property
+    def is_dark(self) -> bool:
+        """Whether the page is one for a dark room."""
+        return self._view.is_dark
+
     def tell_pace(self, pace: Pace) -> None:
         """Show whether the studio keeps up."""
         for line in self._paces:

@@ -19,7 +19,13 @@ from studio.panels.palette import HAND, UNSEEN_HAND
 from studio.panels.placing import Placing
 
 ABOVE = np.array([0.0, 0.0, 0.09])  # [m] from the hand to its label
-_BONE, _JOINT, _UNSURE = (60, 75, 95), (45, 60, 80), (165, 175, 185)
+_UNSURE = (165, 175, 185)
+_BONE, _JOINT = (60, 75, 95), (45, 60, 80)
+_BONE_IN_THE_DARK, _JOINT_IN_THE_DARK, _UNSURE_IN_THE_DARK = (
+    (150, 160, 172),
+    (185, 196, 208),
+    (95, 104, 114),
+)
 
 
 class PersonView:
@@ -28,6 +34,7 @@ class PersonView:
     def __init__(self, scene: viser.SceneApi, name: str = "/person") -> None:
         self._placing = Placing()
         self._drawn: object = None
+        self._is_dark = False
         self._root = scene.add_frame(name, show_axes=False, visible=False)
         ball = trimesh.creation.icosphere(subdivisions=2, radius=1.0)
         self._joints = scene.add_batched_meshes_simple(
@@ -65,9 +72,14 @@ class PersonView:
             self._drawn = skeleton, watched, state
             self._show(placement.place(skeleton.positions), skeleton, state if watched else None)
 
+    def shade(self, is_dark: bool) -> None:
+        """Be pale before a dark backdrop, or dark before a light one."""
+        self._is_dark, self._drawn = is_dark, None
+        self._bones.colors = np.array(_BONE_IN_THE_DARK if is_dark else _BONE, np.uint8)
+
     def _show(self, points: FloatArray, skeleton: Skeleton, state: HandState | None) -> None:
         self._joints.batched_positions = points.astype(np.float32)
-        self._joints.batched_colors = joint_colors(skeleton)
+        self._joints.batched_colors = joint_colors(skeleton, self._is_dark)
         self._bones.points = points[np.array(BONES)]
         hand = points[Joint.HAND_LEFT]
         self._hand.position = hand
@@ -88,10 +100,11 @@ def hand_words(state: HandState) -> str:
     return f"left hand: {state.value.replace('_', ' ').upper()}"
 
 
-def joint_colors(skeleton: Skeleton) -> NDArray[np.uint8]:
-    """Return the joints' colors (25, 3): pale where the sensor only guesses."""
-    sure = (skeleton.tracking == Tracking.TRACKED)[:, None]
-    return np.where(sure, _JOINT, _UNSURE).astype(np.uint8)
+def joint_colors(skeleton: Skeleton, is_dark: bool = False) -> NDArray[np.uint8]:
+    """Return the joints' colors (25, 3): nearer the backdrop's where the sensor only guesses."""
+    known = (skeleton.tracking == Tracking.TRACKED)[:, None]
+    sure, unsure = (_JOINT_IN_THE_DARK, _UNSURE_IN_THE_DARK) if is_dark else (_JOINT, _UNSURE)
+    return np.where(known, sure, unsure).astype(np.uint8)
 
 
 def _sizes() -> FloatArray:

@@ -17,7 +17,7 @@ from studio.panels.inputs import Post
 from studio.panels.person import PersonView
 from studio.panels.robot_view import GhostView, RobotView
 from studio.panels.second import ROOT, SecondRobot
-from studio.panels.stage import Furniture, set_the_stage
+from studio.panels.stage import Furniture, set_the_backdrop, set_the_stage
 from studio.panels.trails import Trails
 from studio.panels.viewpoint import Viewpoint
 
@@ -35,6 +35,7 @@ class SceneView:
         self._robot: RobotView | None = None
         self._ghosts: dict[Side, GhostView] = {}
         self._furniture = Furniture(self._scene)
+        self._is_dark = False
         self._drags: dict[int, Drag] = {}  # of the task's blocks, by their numbers
         self._dragged: list[viser.BoxHandle] = []  # the blocks among which they are
         set_the_stage(server)
@@ -72,6 +73,13 @@ class SceneView:
         self._trails.draw(now)
         self._board.draw(now)
         self._viewpoint.draw(now)
+
+    def shade(self, is_dark: bool) -> None:
+        """Be in the dark, as the rest of the page, or in the light."""
+        if is_dark != self._is_dark:
+            self._is_dark = is_dark
+            set_the_backdrop(self._scene, is_dark)
+            self._person.shade(is_dark)
 
     def _load(self) -> None:
         self._robot = RobotView(self._scene, self._detail)

@@ -15,6 +15,9 @@ _BLOCK_COLORS = ((244, 180, 40), (120, 150, 175), (150, 165, 120))
 _DESK_COLOR, _LEG = (188, 160, 128), 0.05  # [m]
 STILL = 1e-5  # [m] what moved less is not drawn anew
 _SKY, _GROUND = (238, 241, 245), (190, 201, 211)
+_SKY_IN_THE_DARK, _GROUND_IN_THE_DARK = (62, 68, 77), (36, 40, 46)
+_TILES, _TILES_IN_THE_DARK = (140, 140, 140), (84, 92, 102)  # the lines between them
+_CELLS, _CELLS_IN_THE_DARK = (200, 200, 200), (64, 70, 78)  # the finer ones
 _LAMP = (3.0, -1.0, 2.0)  # [m] before Baxter, and to its right
 
 
@@ -80,6 +83,20 @@ def set_the_stage(server: viser.ViserServer) -> None:
     scene.configure_environment_map(None)
     scene.add_light_hemisphere("/sky", ground_color=_GROUND, intensity=1.9)
     scene.add_light_directional("/lamp", position=_LAMP, intensity=1.2)
-    backdrop = np.linspace(_SKY, _GROUND, 64).astype(np.uint8)[:, None, :]
+    set_the_backdrop(scene)
+
+
+def set_the_backdrop(scene: viser.SceneApi, is_dark: bool = False) -> None:
+    """Set what is behind and below all, for a light page or a dark one."""
+    ends = (_SKY_IN_THE_DARK, _GROUND_IN_THE_DARK) if is_dark else (_SKY, _GROUND)
+    backdrop = np.linspace(*ends, 64).astype(np.uint8)[:, None, :]
     scene.set_background_image(np.repeat(backdrop, 4, axis=1), format="png")
-    scene.add_grid("/floor", width=10.0, height=10.0, shadow_opacity=0.25)
+    tiles, cells = (_TILES_IN_THE_DARK, _CELLS_IN_THE_DARK) if is_dark else (_TILES, _CELLS)
+    scene.add_grid(
+        "/floor",
+        width=10.0,
+        height=10.0,
+        section_color=tiles,
+        cell_color=cells,
+        shadow_opacity=0.25,
+    )

@@ -97,6 +97,9 @@ class NoScene:
     def draw(self, _: Snapshot) -> None:
         pass
 
+    def shade(self, _: bool) -> None:
+        pass
+
     def wait(self, _: float | None = None) -> None:
         pass
 

@@ -77,6 +77,9 @@ def test_all_is_drawn_from_teaching_to_playing_without_a_browser(
         until(lambda now: now.entries, "taught")
         session.post(commands.Train(LearnerSettings("rbf", 20)))
         until(lambda now: now.lesson is not None, "trained")
+        before = app.scene._person._bones.colors.sum()
+        app.page._view.toggle()
+        until(lambda _: app.scene._person._bones.colors.sum() > before, "dark")
         session.post(commands.PlayReproduction())
         until(lambda now: now.reproduction is not None, "played")
         session.post(commands.Configure(Choices("right", "paper", "open")))
@@ -111,6 +114,15 @@ def session(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
 
 def first_panel(app: App) -> object:
     return app.page._always[0]  # state and Stop, before the messages
+
+
+def test_the_scene_is_as_dark_as_the_page(session, monkeypatch: pytest.MonkeyPatch) -> None:
+    shades: list[bool] = []
+    monkeypatch.setattr(NoScene, "shade", lambda _, is_dark: shades.append(is_dark))
+    with App(SimpleNamespace(session=session, pace=Pace()), port=0) as app:
+        soon(lambda: shades[-1:] == [False])
+        app.page._view.toggle()
+        soon(lambda: shades[-1:] == [True])
 
 
 @pytest.mark.parametrize("part", [lambda app: app.scene, first_panel, lambda app: app.page.steps])

@@ -1,12 +1,17 @@
 """What stands around the robot is drawn as the scene has it: desk, blocks, zones."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from studio.engine.scene_file import read_scene, scene_names
-from studio.panels.stage import Furniture
+from studio.engine.skeleton import Joint, Skeleton, Tracking, all_tracked
+from studio.panels.person import joint_colors
+from studio.panels.stage import Furniture, set_the_backdrop
 from studio.panels.zones import outline
 from tests.panels.nodes import Scene
+from tests.panels.test_view import contrast
 
 
 def poses(scene) -> np.ndarray:
@@ -53,3 +58,22 @@ def test_an_outline_goes_around_its_zone() -> None:
     edges = outline(zone)
     np.testing.assert_allclose(edges[:, 1], np.roll(edges[:, 0], -1, axis=0))
     np.testing.assert_allclose(np.ptp(edges[:, 0], axis=0), (*zone.size, 0.0))
+
+
+@pytest.mark.parametrize("is_dark", [False, True])
+def test_a_person_is_seen_before_the_backdrop_and_guesses_are_fainter(is_dark) -> None:
+    images: list[np.ndarray] = []
+    scene = SimpleNamespace(
+        set_background_image=lambda image, **_: images.append(image),
+        add_grid=lambda *_, **__: None,
+    )
+    set_the_backdrop(scene, is_dark)
+    tracking = all_tracked()
+    tracking[Joint.WRIST_LEFT] = Tracking.INFERRED
+    colors = joint_colors(Skeleton(0.0, np.zeros((25, 3)), tracking), is_dark)
+    sure, guessed = (tuple(colors[joint].tolist()) for joint in (Joint.HAND_LEFT, Joint.WRIST_LEFT))
+    (image,) = images
+    for behind in (tuple(image[0, 0].tolist()), tuple(image[-1, 0].tolist())):
+        assert contrast(sure, behind) >= 4.5
+        assert contrast(guessed, behind) < contrast(sure, behind)
+    assert (image.mean() < 64) == is_dark
