@@ -41,7 +41,8 @@ def match(lesson: Lesson, count: int, bound: float, smoothness: float, iteration
     """Return a chain of ``count`` translations whose steepness stays below ``bound``.
 
     The first chain decides on which side of each other the parts of a path are unrolled, and no
-    refinement changes that: so a few are tried, and the most promising one is finished.
+    refinement changes that: so a few are tried, and the most promising one is grown to its whole
+    length and finished.
     """
     first = min(count, LONGEST_TRIED)
     objective = Objective(lesson, first, bound, smoothness)

@@ -36,7 +36,7 @@ class Objective:
 
     def packed(self, chain: Diffeomorphism, starts: FloatArray) -> FloatArray:
         """Return the numbers (p,) of a chain whose steepness is below the bound."""
-        shares = chain.steepness / self._bound
+        shares = np.minimum(chain.steepness / self._bound, 1.0 - 1e-12)  # rounding may make 1 of it
         stretch = 1.0 / (chain.widths / STEEPEST * self._bound * np.sqrt(1.0 - shares**2))
         free = chain.shifts * stretch[:, np.newaxis]
         return np.concatenate(

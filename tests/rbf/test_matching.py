@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from studio.rbf.diffeomorphism import STEEPEST, Diffeomorphism
 from studio.rbf.lessons import lesson_from
 from studio.rbf.matching import LONGEST_TRIED, grow, match
 from studio.rbf.refinement import Objective
@@ -60,3 +61,11 @@ def test_a_chain_longer_than_those_tried_is_no_worse_than_they_are():
     assert len(longer.chain.widths) == LONGEST_TRIED + 15
     assert longer.chain.steepness.max() <= 0.8
     assert longer.error <= 1.02 * tried.error
+
+
+def test_a_shift_as_steep_as_the_bound_can_be_packed():
+    taught, bound = lesson(1), 0.8
+    objective = Objective(taught, 1, bound, 0.0)
+    steepest = Diffeomorphism(np.zeros((1, 2)), np.array([[bound / STEEPEST, 0.0]]), np.ones(1))
+    again, _ = objective.unpacked(objective.packed(steepest, taught.starts))
+    np.testing.assert_allclose(again.shifts, steepest.shifts, rtol=1e-9)
