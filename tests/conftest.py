@@ -4,7 +4,8 @@ import os
 
 # Several test processes share few cores: threads of linear algebra would only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-# A hundred programs are started: without this each would compile the whole project for itself.
+# A hundred programs are started: without this each would compile the whole project for itself,
+# whatever the user's environment says. What is written are __pycache__ folders, no file of Git's.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 

@@ -30,7 +30,8 @@ COUNTS = (
     *(150, 200, 250, 300),
 )
 MOST_SHOWN = COUNTS[-1]
-_OF_FIELDS = (2, 5, 10, 20, 50, 100)  # stable fields take 5 s a point, and more for more
+# A stable field takes 1 to 3 s, once for all demonstrations and once for each that is left out.
+_OF_FIELDS = (2, 5, 10, 20, 50, 100)
 
 
 @dataclass(frozen=True)

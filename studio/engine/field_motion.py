@@ -40,7 +40,7 @@ class PushAndReturn:
         """Learn joints (n, D) [rad] from demonstrations one after another, X (n,) their times."""
         taught = split_where_time_restarts(X, Y)
         legs = legs_of(taught)
-        iterations = max(1, min(ITERATIONS, REFINED // self.neurons))
+        iterations = min(ITERATIONS, REFINED // self.neurons)
         try:
             with warnings.catch_warnings():  # how far it misses is in the remark
                 warnings.simplefilter("ignore", UserWarning)

@@ -164,12 +164,12 @@ class App:
         if not panels:
             return
         self._attempt(partial(self.page.draw, snapshot, self._attempt))
+        self._attempt(partial(self.scene.shade, self.page.is_dark))
         self._attempt(self._draw_surroundings)
         self.page.trouble.draw()
 
     def _draw_surroundings(self) -> None:
         """Show what is not the session's: how well it keeps up, who controls, what is missing."""
-        self.scene.shade(self.page.is_dark)
         self.page.tell_pace(self._loop.pace)
         self._control.draw()
         if self._control.is_elsewhere:

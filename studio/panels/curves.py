@@ -15,7 +15,7 @@ from studio.engine.snapshot import Snapshot
 from studio.panels.readiness import fitting
 
 SMALLEST_RANGE, ROUND = 15.0, 5.0  # [deg] of the angle's axis
-KEPT = 0.6  # of an axis is the curves', where it grows to limits that are near enough
+KEPT = 0.6  # of an axis is the curves', before rounding, where it grows to limits near enough
 _CLEAR = np.array((-2.0, 2.0))  # [deg] from a limit to the axis's end, so that its line is seen
 MOST_THIN = 6  # demonstrations with a line of their own; the envelope holds all
 

@@ -94,7 +94,7 @@ def question(
 def _wait(learning: LearningStatus) -> str:
     """Return how long a trial takes: a quarter of a second, but 0.5 to 2.5 s for a stable field."""
     if learning.chosen.name == "field":  # which is matched to the motion step by step
-        return "which takes a stable field one to three seconds"
+        return "which takes a stable field one to three seconds, or more with many demonstrations"
     return "in about a second"
 
 

@@ -77,9 +77,9 @@ class SceneView:
     def shade(self, is_dark: bool) -> None:
         """Be in the dark, as the rest of the page, or in the light."""
         if is_dark != self._is_dark:
-            self._is_dark = is_dark
             set_the_backdrop(self._scene, is_dark)
             self._person.shade(is_dark)
+            self._is_dark = is_dark
 
     def _load(self) -> None:
         self._robot = RobotView(self._scene, self._detail)

@@ -18,7 +18,7 @@ _FRAME = f"border-left:10px solid {css(BRAND)};padding:.2em .6em;font-size:max(1
 # viser's own notices, as that a machine has no graphics card, would lie over the captions. Where a
 # later viser names them in another way they do again, until somebody closes them.
 _NOTICES_BELOW = """<style>
-.mantine-Notifications-root { margin-top: max(190px, 26vh); }
+.mantine-Notifications-root { margin-top: max(260px, 34vh); }
 </style>"""
 
 

@@ -1,5 +1,6 @@
 """Where the camera stands: further away when more stands beside the robot, so that all is seen."""
 
+import math
 from dataclasses import dataclass
 
 import viser
@@ -16,6 +17,11 @@ class View:
     position: Triple
     look_at: Triple
 
+    @property
+    def distance(self) -> float:
+        """How far the camera is from what it looks at [m]."""
+        return math.dist(self.position, self.look_at)
+
 
 ALONE = View((3.6, 0.75, 1.95), (0.25, -0.34, 0.84))
 RIGHT_HAND = View((4.4, 0.7, 2.15), (0.25, -0.42, 0.82))  # of the person, who stands to the left
@@ -24,7 +30,10 @@ WITH_BOTH = View((8.7, 2.6, 3.0), (0.2, 1.4, 0.7))
 
 
 class Viewpoint:
-    """Moves every camera back when something comes, and leaves it there when that goes."""
+    """Moves cameras back when something comes, and leaves them there when that goes.
+
+    One that is as far away already stays where its user has it.
+    """
 
     def __init__(self, server: viser.ViserServer) -> None:
         self._server, self._view = server, ALONE
@@ -39,8 +48,9 @@ class Viewpoint:
         initial = self._server.initial_camera  # of whoever comes, and of "reset view"
         initial.position, initial.look_at = view.position, view.look_at
         for client in self._server.get_clients().values() if is_wider else ():
-            client.camera.position = view.position
-            client.camera.look_at = view.look_at
+            if math.dist(client.camera.position, view.look_at) < 0.98 * view.distance:
+                client.camera.position = view.position
+                client.camera.look_at = view.look_at
 
 
 def view_of(now: Snapshot) -> View:

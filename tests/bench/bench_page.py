@@ -2,7 +2,7 @@
 
 Run it by ``python tests/bench/bench_page.py``; it takes some ten minutes, and needs Chromium. All
 figures are ratios to a minimal viser script of the same run, which adds the same Baxter by
-`viser.extras.ViserUrdf`; it is the function `minimal` of `page_programs`.
+`viser.extras.ViserUrdf`; it is the function `minimal` of `page_yardstick`.
 """
 
 import argparse
@@ -33,18 +33,9 @@ from studio.panels.arcs import ArcsView
 from studio.panels.handles import Handles
 from studio.panels.meshes import FINE
 from studio.panels.scene import SceneView
-from tests.bench.page_programs import (
-    CAMERA,
-    GHOST,
-    NEURONS,
-    PLAYHEAD,
-    ROOT,
-    light,
-    minimal,
-    served,
-    upstream,
-)
+from tests.bench.page_programs import GHOST, PLAYHEAD, ROOT, light, served
 from tests.bench.page_visits import MIDDLE, PATIENCE, SIZE, Visit, red_pixels, reload, visit
+from tests.bench.page_yardstick import CAMERA, NEURONS, minimal, upstream
 from tests.browser.conftest import FLAGS, NAMES
 
 PAGE, PICTURE = ROOT / "docs" / "page.md", ROOT / "docs" / "page.png"

@@ -1,6 +1,5 @@
 """The programs whose pages `bench_page` opens: each serves one and ends with its input."""
 
-import math
 import os
 import subprocess
 import sys
@@ -10,61 +9,28 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
 import viser
-import yourdfpy
-from viser.extras import ViserUrdf
 
 from studio.engine import commands
 from studio.engine.clock import LiveLoop
-from studio.engine.robot import BASE_HEIGHT, description_folder
 from studio.engine.session import Session
 from studio.engine.snapshot import Mode
 from studio.engine.teaching import LearnerSettings
 from studio.panels.app import App
 from studio.panels.meshes import FINE
 from studio.panels.robot_view import RobotView
+from tests.bench.page_yardstick import CAMERA, NEURONS, looking
 
 ROOT = Path(__file__).resolve().parents[2]
-CAMERA = (3.6, 0.75, 1.95), (0.25, -0.34, 0.84)  # [m] where from and where to, the studio's own
-NEURONS, PLAYHEAD = 17, 2.0  # where the slider and the playhead [s] of a taught session are
+YARDSTICK = Path(__file__).with_name("page_yardstick.py")
+PLAYHEAD = 2.0  # [s] where that of a taught session is
 GHOST = "1: demonstration-001"  # what is chosen there
 
 
-def minimal(camera: tuple[tuple[float, ...], ...] = CAMERA) -> viser.ViserServer:
-    """The yardstick: all that a viser user writes to show Baxter."""
-    server = viser.ViserServer("127.0.0.1", 0, verbose=False)
-    server.initial_camera.position, server.initial_camera.look_at = camera
-    server.initial_camera.fov = math.radians(43.0)
-    server.scene.add_frame("/robot", show_axes=False, position=(0.0, 0.0, BASE_HEIGHT))
-    robot = ViserUrdf(server, upstream(), root_node_name="/robot")
-    robot.update_cfg(np.zeros(len(robot.get_actuated_joint_names())))
-    return server
-
-
 def light(camera: tuple[tuple[float, ...], ...] = CAMERA) -> viser.ViserServer:
-    """The same with the studio's robot: for the pictures, as everything else is alike."""
-    server = viser.ViserServer("127.0.0.1", 0, verbose=False)
-    server.initial_camera.position, server.initial_camera.look_at = camera
-    server.initial_camera.fov = math.radians(43.0)
+    """The yardstick's page with the studio's robot: for the pictures, as all else is alike."""
+    server = looking(camera)
     RobotView(server.scene, FINE)
-    return server
-
-
-def upstream() -> yourdfpy.URDF:
-    folder = description_folder()
-    assert folder is not None, "pip install example-robot-data"
-    share = folder.parents[2]
-    return yourdfpy.URDF.load(
-        str(folder / "urdf" / "baxter.urdf"),
-        filename_handler=lambda fname: str(share / fname.removeprefix("package://")),
-    )
-
-
-def with_a_field() -> viser.ViserServer:
-    """The yardstick of a reload: the minimal page with one number field."""
-    server = minimal()
-    server.gui.add_number("Neurons", NEURONS)
     return server
 
 
@@ -92,13 +58,7 @@ def taught(folder: Path) -> Session:
 
 
 def serve(what: str) -> None:
-    """Serve one of the pages, say where, and go on until standard input ends."""
-    pages = {"minimal": minimal, "light": light, "field": with_a_field}
-    if what in pages:
-        server = pages[what]()
-        print(f"http://127.0.0.1:{server.get_port()}", flush=True)
-        sys.stdin.read()
-        return
+    """Serve the studio, say where, and go on until standard input ends."""
     begin: Callable[[Path], Session] = {"studio": Session, "taught": taught}[what]
     with (
         tempfile.TemporaryDirectory() as folder,
@@ -114,9 +74,10 @@ def serve(what: str) -> None:
 def served(what: str, cache: Path) -> Iterator[tuple[str, float]]:
     """Start a page's program; yield the address and how long it took to have all ready [s]."""
     start = time.perf_counter()
+    script = YARDSTICK if what in ("minimal", "field") else Path(__file__)
     environment = os.environ | {"PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(cache)}
     program = subprocess.Popen(
-        [sys.executable, __file__, what],
+        [sys.executable, str(script), what],
         env=environment,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,

@@ -21,8 +21,15 @@ FLAGS = (
 # The 3D view is drawn a few times a second instead of as often as the machine can.
 FEWER_PICTURES = """
 const next = window.requestAnimationFrame.bind(window);
-window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 150);
-window.cancelAnimationFrame = (number) => clearTimeout(number);
+const canceled = new Set();
+window.requestAnimationFrame = (draw) => {
+  const number = setTimeout(() => next((now) => canceled.delete(number) || draw(now)), 150);
+  return number;
+};
+window.cancelAnimationFrame = (number) => {
+  clearTimeout(number);
+  canceled.add(number);
+};
 """
 PATIENCE = 90_000  # [ms] for anything: a machine without a graphics card draws a picture a second
 

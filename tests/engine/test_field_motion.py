@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from studio.engine import field_motion
 from studio.engine.errors import StudioError
 from studio.engine.field_motion import (
     OnePlainField,
@@ -61,6 +62,22 @@ def test_a_stable_field_for_both_ways_stands_still_where_it_starts(taught):
         field.fit([(INDEX_TIME, rows) for rows in taught.rows])
     path = field.rollout(taught.mean[0], 1.0, 142)
     assert from_start(path).max() < 0.01 * from_start(taught.mean).max()
+
+
+@pytest.mark.parametrize(
+    ("neurons", "iterations"), [(1, 300), (60, 300), (61, 295), (300, 60), (1000, 18)]
+)
+def test_more_neurons_are_refined_less_as_somebody_waits(taught, monkeypatch, neurons, iterations):
+    asked = []
+
+    def enough(**settings):
+        asked.append((settings["n_translations"], settings["max_iterations"]))
+        raise ValueError("enough")
+
+    monkeypatch.setattr(field_motion, "StableField", enough)
+    with pytest.raises(StudioError, match="enough"):
+        PushAndReturn(neurons).fit(*stacked(taught.rows))
+    assert asked == [(neurons, iterations)]
 
 
 @pytest.mark.parametrize("neurons", [20, 50, 142])

@@ -100,19 +100,24 @@ def test_the_numbers_of_two_arms_stand_apart(lesson, view) -> None:
 
 
 def test_arcs_are_sent_on_request_and_only_where_something_is_new(lesson, server, monkeypatch):
-    view, sent = ArcsView(server.scene), []
+    view, sent, drawn = ArcsView(server.scene), [], []
+    draw = type(view._arms["left"]).draw
+    monkeypatch.setattr(
+        type(view._arms["left"]), "draw", lambda *given: (drawn.append(given[0]), draw(*given))
+    )
     for each in (type(view._root), type(view._arms["left"]._lines)):
         monkeypatch.setattr(each, "_queue_update", lambda node, name, _: sent.append(name))
     now = replace(lesson["armed"], choices=Choices("both"))
     view.draw(now)
-    assert (view._root.visible, sent) == (False, [])
+    assert (view._root.visible, sent, drawn) == (False, [], [])
     view.wanted = True
     view.draw(now)
     assert sent.count("points") == 2
+    assert len(drawn) == 2
     sent.clear()
     view.draw(now)
     view.draw(replace(now, time=now.time + 1.0, choices=replace(now.choices, gate="open")))
-    assert sent == []
+    assert (len(drawn), sent) == (2, [])
     one = replace(now, choices=Choices(), skeleton=replace(now.skeleton))
     view.draw(one)
     assert sent.count("points") == 0  # they are where they were: only the other arm's are gone

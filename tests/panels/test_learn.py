@@ -124,7 +124,7 @@ def test_the_answer_stays_hidden_until_somebody_guesses() -> None:
 def test_how_long_a_trial_takes_is_said_of_each_learner() -> None:
     assert "in about a second." in question(status(), "")
     field = question(status(chosen=LearnerSettings("field", 6)), "")
-    assert "takes a stable field one to three seconds." in field
+    assert "takes a stable field one to three seconds, or more with many demonstrations." in field
 
 
 def test_another_networks_answer_is_none_of_this_one() -> None:

@@ -53,3 +53,15 @@ def test_a_persons_right_hand_that_teaches_is_seen_beside_the_panels(lesson) -> 
     for (arm, mirrored), view in arms.items():
         assert view_of(replace(now, choices=Choices(arm, mirrored=mirrored))) == view
     assert RIGHT_HAND.position[0] > ALONE.position[0]
+
+
+def test_whoever_is_far_enough_away_stays(lesson) -> None:
+    person = client()
+    viewpoint, now = Viewpoint(server(person)), lesson["played"]
+    person.camera.position = WITH_ONE.position  # since a board was there
+    viewpoint.draw(replace(now, choices=Choices("both")))
+    assert person.camera.position == WITH_ONE.position
+    viewpoint.draw(now)
+    person.camera.position = ALONE.position
+    viewpoint.draw(replace(now, choices=Choices("both")))
+    assert person.camera.position == RIGHT_HAND.position

@@ -55,10 +55,12 @@ def test_refinement_and_more_translations_bring_the_paths_closer():
     assert fine < 0.8 * untouched  # what is left is how the paths differ
 
 
-def test_a_chain_longer_than_those_tried_is_no_worse_than_they_are():
+@pytest.mark.parametrize(("more", "iterations"), [(15, 40), (170, 90), (270, 60)])
+def test_a_chain_longer_than_those_tried_is_no_worse_than_they_are(more, iterations):
     taught = lesson(2)
-    tried, longer = (match(taught, LONGEST_TRIED + more, 0.8, 3e-5, 40) for more in (0, 15))
-    assert len(longer.chain.widths) == LONGEST_TRIED + 15
+    tried = match(taught, LONGEST_TRIED, 0.8, 3e-5, iterations)
+    longer = match(taught, LONGEST_TRIED + more, 0.8, 3e-5, iterations)
+    assert len(longer.chain.widths) == LONGEST_TRIED + more
     assert longer.chain.steepness.max() <= 0.8
     assert longer.error <= 1.02 * tried.error
 

@@ -115,10 +115,10 @@ class Content:
         try:
             chunk = self._stream.read(count)
         except (EOFError, gzip.BadGzipFile, zlib.error) as error:
-            found = "cut off" if isinstance(error, EOFError) else f"damaged ({error})"
+            found = "cut off or damaged" if isinstance(error, EOFError) else f"damaged ({error})"
             raise FileError(
-                f"{self.name}: after {self._stream.tell():,} bytes: expected gzip data to its end, "
-                f"found them {found}; fetch or pack the file again"
+                f"{self.name}: after {self._stream.tell():,} bytes (decompressed): expected "
+                f"gzip data to its end, found them {found}; fetch or pack the file again"
             ) from None
         except OSError as error:
             raise _unreadable(self.name, error) from None

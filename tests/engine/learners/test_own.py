@@ -18,8 +18,8 @@ def test_all_learners_have_the_same_budget_and_unlike_settings():
 @pytest.mark.parametrize("kind", OWN, ids=lambda kind: kind.name)
 def test_every_setting_of_our_own_learners_answers(kind):
     rows = samples().rows[:2]
-    some = 11 if kind.name == "field" else 1  # of fields, half a second each, the two extremes
-    for settings in kind.settings[::some]:
+    few = (kind.settings[0], kind.settings[-1])  # of fields, which take half a second each
+    for settings in few if kind.name == "field" else kind.settings:
         curve = kind.model(settings).fit(*stacked(rows)).predict(INPUTS)
         assert curve.shape == (142, 4)
         assert np.isfinite(curve).all()

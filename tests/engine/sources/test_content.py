@@ -60,7 +60,7 @@ def test_gzip_cut_off_or_damaged_anywhere_is_an_error(tmp_path):
     whole = gzip.compress(bytes(range(128)) * 16)
     for count in range(2, len(whole)):
         path.write_bytes(whole[:count])
-        with pytest.raises(FileError, match=r"bytes: .* found them cut off; fetch"):
+        with pytest.raises(FileError, match=r"\(decompressed\): .* found them cut off"):
             read_content(path)
     path.write_bytes(whole[:-8] + b"\0\0\0\0" + whole[-4:])  # a wrong checksum
     with pytest.raises(FileError, match=r"found them damaged \(CRC"):
@@ -71,7 +71,7 @@ def test_where_gzip_ends_too_early_is_told_to_the_byte(tmp_path):
     path = tmp_path / "cut.gz"
     path.write_bytes(gzip.compress(bytes(range(250)) * 1000)[:-20])
     could_be_read = len(zlib.decompressobj(31).decompress(path.read_bytes()))
-    with pytest.raises(FileError, match=f"after {could_be_read:,} bytes"):
+    with pytest.raises(FileError, match=f"after {could_be_read:,} bytes \\("):
         read_content(path)
     assert could_be_read > 0
 
