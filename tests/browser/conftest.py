@@ -23,7 +23,7 @@ FEWER_PICTURES = """
 const next = window.requestAnimationFrame.bind(window);
 const canceled = new Set();
 window.requestAnimationFrame = (draw) => {
-  const number = setTimeout(() => next((now) => canceled.delete(number) || draw(now)), 150);
+  const number = setTimeout(() => next((now) => canceled.delete(number) || draw(now)), 100);
   return number;
 };
 window.cancelAnimationFrame = (number) => {

@@ -56,6 +56,7 @@ def test_the_hand_goes_where_it_is_dragged_keys_sign_and_it_is_taught(puppet: Pu
     page = puppet.page
     page.get_by_role("button", name="Record", exact=True).click()
     puppet.wait(lambda: puppet.loop.session.snapshot.gate is not None, "nobody is watched")
+    expect(page.get_by_text("● RECORDING").first).to_be_visible()  # the page has heard of it
     for lit, key in enumerate("loc", start=1):
         page.keyboard.press(key)
         puppet.wait(lambda lit=lit: puppet.loop.session.snapshot.gate.lit == lit, f"{key}: {lit}")

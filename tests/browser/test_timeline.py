@@ -20,7 +20,7 @@ def studio(page: Page, tmp_path: Path) -> Iterator[Studio]:
     with studio_on(page, tmp_path / "recordings", 1.0) as opened:
         opened.loop.session._listed.add(takes(2))
         opened.loop.session._learning.lesson = lesson()
-        opened.waits(lambda now: now.lesson is not None)
+        opened.shows("Play lets Baxter do alone what it learned.")  # and so does its key
         yield opened
 
 
